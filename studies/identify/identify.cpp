@@ -35,6 +35,7 @@ class Identification {
   IdentifyResult run() {
     tell(0.05, "reading signs of the log");
     describe();
+    if (isStill(log_)) return unmoved();
     const Periods periods = averagePeriods(log_);
     out_.periods = periods.count;
     const FilterPlan plan = planFilters(log_, periods.count > 1, sampleNoise(log_, periods));
@@ -72,6 +73,7 @@ class Identification {
     out_.duration = log_.step * static_cast<double>(log_.rows());
     out_.findings = log_.findings;
     findSigns(log_, scenario_.manipulator->motors(), out_.findings);
+    findUnitOfTime(out_.duration, scenario_.trajectory->duration(), out_.findings, out_.causes);
   }
 
   void noteTooSlow(const FilterPlan& plan) {
@@ -100,6 +102,13 @@ class Identification {
     return modelled.coarseDelay(most);
   }
 
+  IdentifyResult unmoved() {
+    out_.findings.push_back({"still", -1, 0, "", "no coordinate moves by more than its noise: expected a motion"});
+    out_.verdict = Verdict::inconclusive;
+    out_.sentence = "The machine stands still in the log, so the model is not judged.";
+    return std::move(out_);
+  }
+
   IdentifyResult unjudged() {
     out_.findings.push_back({"too_short", -1, out_.duration, "s",
                              fmt::format("the low passes leave {} independent instants of {:.4g} s at {:.4g} Hz, and "
@@ -120,7 +129,8 @@ class Identification {
       whitened_ = whiten(comparison, noise);
       root_ = squareRootOf(whitened_.rows);
       base_ = fitBase(root_, comparison.directions, comparison.further());
-      const auto [left, deviation] = delayLeft(root_, comparison, suspectsOf(root_, comparison, machine, tolerances_));
+      const auto [left, deviation] =
+          delayLeft(root_, comparison, suspectsOf(root_, comparison, machine, tolerances_), base_.freedom);
       out_.delay_uncertainty = deviation;
       const double reach = 0.5 / modelled.filtered().plan().state_cut, step = std::clamp(left, -reach, reach);
       if (std::abs(step) < settled_delay * std::min(deviation + 1e-9, log_.step) || pass == 5) return;
@@ -136,7 +146,7 @@ class Identification {
     out_.squares = judged.squares;
     out_.squares_limit = judged.squares_limit;
     out_.threshold = judged.threshold;
-    out_.causes.insert(out_.causes.end(), judged.causes.begin(), judged.causes.end());
+    if (out_.causes.empty()) out_.causes = judged.causes;  // else the log is misread, and fitted numbers mean nothing
     setMotors(modelled, comparison);
     const CrossValidation validation = crossValidate(whitened_, comparison);
     out_.validation_given = validation.given;

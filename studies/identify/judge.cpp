@@ -104,6 +104,16 @@ std::size_t largestOf(const std::vector<Score>& scores) {
   return static_cast<std::size_t>(best - scores.begin());
 }
 
+/// Returns the suspect of the largest score, or the offset of a coordinate that cannot be told from it. An encoder is
+/// off more often than a joint's place.
+std::size_t likeliestOf(const std::vector<Score>& scores, const std::vector<const Suspect*>& suspects) {
+  const std::size_t best = largestOf(scores);
+  const double least = scores[best].score * scores[best].score - alike;
+  for (std::size_t j = 0; j < scores.size() && suspects[best]->direction.kind == DirectionKind::number; ++j)
+    if (suspects[j]->direction.kind == DirectionKind::encoder && scores[j].score * scores[j].score > least) return j;
+  return best;
+}
+
 /// Returns the standard uncertainty of a suspect's change by everything but its own tolerance.
 double ownDeviation(const Score& score, double tolerance) {
   return std::sqrt(std::max(0.0, score.deviation * score.deviation - tolerance * tolerance));
@@ -121,6 +131,14 @@ double thresholdOf(double risk, double count, Eigen::Index freedom) {
   return boost::math::quantile(boost::math::complement(distribution, risk / (2 * std::max(count, 1.0))));
 }
 
+const Eigen::VectorXd& columnOf(const MeasuredCause& cause, const std::vector<Suspect>& suspects) {
+  return std::find_if(suspects.begin(), suspects.end(),
+                      [&cause](const Suspect& each) {
+                        return each.direction.words == cause.what && each.direction.path == cause.parameter;
+                      })
+      ->column;
+}
+
 /// Finds one cause after another, with the earlier ones free.
 void findCauses(const std::vector<const Suspect*>& suspects, Allowance& allowance, const Eigen::VectorXd& z,
                 double threshold, bool outside, std::vector<MeasuredCause>& out) {
@@ -131,7 +149,7 @@ void findCauses(const std::vector<const Suspect*>& suspects, Allowance& allowanc
     std::vector<Score> scores = scoresOf(columns, allowance(columns), z);
     for (std::size_t j = 0; j < scores.size(); ++j)
       if (cannotBeNegative(suspects[j]->direction.kind) && scores[j].change < 0) scores[j] = {};
-    const std::size_t best = largestOf(scores);
+    const std::size_t best = likeliestOf(scores, suspects);
     const Score& score = scores[best];
     if (!(std::abs(score.score) > threshold)) return;
     const Suspect& found = *suspects[best];
@@ -208,9 +226,16 @@ std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& compa
 }
 
 std::pair<double, double> delayLeft(const SquareRoot& model, const Comparison& comparison,
-                                    const std::vector<Suspect>& suspects) {
-  const Allowance allowance(withinTolerances(suspects, model.R.rows()));
+                                    const std::vector<Suspect>& suspects, Eigen::Index noise_freedom) {
   const Eigen::MatrixXd column = model.R.col(comparison.delay());
+  Allowance allowance(withinTolerances(suspects, model.R.rows())), of_any_delay = allowance;
+  of_any_delay.free(column);
+  std::vector<const Suspect*> all;
+  for (const Suspect& each : suspects) all.push_back(&each);
+  std::vector<MeasuredCause> causes;
+  findCauses(all, of_any_delay, model.z, thresholdOf(risk_of_number, static_cast<double>(all.size()), noise_freedom),
+             false, causes);
+  for (const MeasuredCause& cause : causes) allowance.free(columnOf(cause, suspects));
   const Score score = scoresOf(column, allowance(column), model.z).front();
   return {score.change, score.deviation};
 }
@@ -237,9 +262,7 @@ Judgement judge(const SquareRoot& model, const Comparison& comparison, const std
              thresholdOf(risk_outside, static_cast<double>(outside.size()), noise_freedom), true, out.causes);
 
   Allowance allowance(columns);
-  for (const MeasuredCause& cause : out.causes)
-    for (const Suspect& each : suspects)
-      if (each.direction.words == cause.what && each.direction.path == cause.parameter) allowance.free(each.column);
+  for (const MeasuredCause& cause : out.causes) allowance.free(columnOf(cause, suspects));
   const Eigen::MatrixXd every = columnsOf(all, model.R.rows()), everything = basisOf(every);
   out.freedom = everything.cols();
   out.threshold = thresholdOf(risk_of_number, static_cast<double>(out.freedom), noise_freedom);

@@ -37,9 +37,10 @@ std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& compa
                                 const ManipulatorParameters& machine, const NumberTolerances& tolerances);
 
 /// Returns the remaining delay, s, and its standard uncertainty. The numbers stay the scenario's within their
-/// tolerances, because a free fit of all of them trades the delay for masses and friction.
+/// tolerances, because a free fit of all of them trades the delay for masses and friction. Only numbers that must be
+/// wrong whatever the delay is are free.
 std::pair<double, double> delayLeft(const SquareRoot& model, const Comparison& comparison,
-                                    const std::vector<Suspect>& suspects);
+                                    const std::vector<Suspect>& suspects, Eigen::Index noise_freedom);
 
 /// Judges the deviations against tolerances, the delay's uncertainty and noise. A right model passes in 95 % of all
 /// cases.

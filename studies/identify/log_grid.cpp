@@ -12,6 +12,8 @@ namespace ursula::identification {
 namespace {
 
 constexpr std::size_t fewest_rows = 16, most_gap = 100'000, head_size = 1000;
+/// Gaps of so many rows are filled by a cubic through two rows on either side, because links drop single rows often.
+constexpr std::size_t most_filled = 3;
 const double turn = 2 * std::acos(-1.0);
 
 }  // namespace
@@ -83,6 +85,45 @@ void LogGrid::halve() {
   averaged_ *= 2;
 }
 
+std::vector<std::size_t> LogGrid::neighboursOf(std::size_t first, std::size_t end) const {
+  constexpr std::size_t reach = 6;
+  std::vector<std::size_t> out;
+  for (std::size_t k = first; k-- > 0 && first - k <= reach && out.size() < 2;)
+    if (!missing_[k]) out.push_back(k);
+  const std::size_t before = out.size();
+  for (std::size_t k = end; k < missing_.size() && k - end < reach && out.size() < before + 2; ++k)
+    if (!missing_[k]) out.push_back(k);
+  return before == 2 && out.size() == 4 ? out : std::vector<std::size_t>();
+}
+
+void LogGrid::markGaps(MeasuredLog& log) const {
+  const auto averaged = static_cast<std::size_t>(log.averaged);
+  for (std::size_t first = 0; first < missing_.size(); ++first) {
+    if (!missing_[first]) continue;
+    const auto after = std::find(missing_.begin() + static_cast<std::ptrdiff_t>(first), missing_.end(), false);
+    const auto end = static_cast<std::size_t>(after - missing_.begin());
+    const std::vector<std::size_t> nodes = neighboursOf(first, end);
+    const bool stays = end - first > most_filled || nodes.empty();
+    for (std::size_t k = first; k < end && k / averaged < log.missing.size(); ++k) {
+      if (stays) log.missing[k / averaged] = true;
+      if (stays || averaged > 1) continue;
+      log.filled.resize(log.missing.size(), false);
+      log.filled[k] = true;
+      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(log.motion.cols());
+      for (const std::size_t node : nodes) {  // Lagrange's cubic
+        double weight = 1;
+        for (const std::size_t other : nodes)
+          if (other != node)
+            weight *= (static_cast<double>(k) - static_cast<double>(other)) /
+                      (static_cast<double>(node) - static_cast<double>(other));
+        sum += weight * log.motion.row(static_cast<Eigen::Index>(node));
+      }
+      log.motion.row(static_cast<Eigen::Index>(k)) = sum;
+    }
+    first = end;
+  }
+}
+
 MeasuredLog LogGrid::finish(const std::string& file) {
   if (head_.size() > 1) settleHead();
   if (count_ - lacking_ < fewest_rows)
@@ -95,17 +136,17 @@ MeasuredLog LogGrid::finish(const std::string& file) {
   log.file_step = (grid_t_ - first_t_) / static_cast<double>(rows_ - 1);
   log.step = log.file_step * averaged_;
   log.start = first_t_ + 0.5 * (averaged_ - 1) * log.file_step;
-  const std::size_t rows = data_.size() / width_, averaged = static_cast<std::size_t>(averaged_);
+  const std::size_t rows = data_.size() / width_;
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  log.motion = Eigen::Map<const Rows>(data_.data(), rows, width_);
+  log.motion = Eigen::Map<const Rows>(data_.data(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(width_));
   log.missing.assign(rows, false);
-  for (std::size_t k = 0; k < missing_.size(); ++k)
-    if (missing_[k] && k / averaged < rows) log.missing[k / averaged] = true;
+  markGaps(log);
   if (const std::size_t filled = rows_ - (count_ - lacking_); filled > 0)
     log.findings.push_back(
         {"drop_outs", -1, static_cast<double>(filled), "rows",
-         fmt::format("{} of {} rows are missing in {} gaps, and {} have empty cells; what is near them is left out",
-                     filled, rows_, gaps_, lacking_)});
+         fmt::format("{} of {} rows are missing in {} gaps, and {} have empty cells; up to {} in a row are filled by a "
+                     "cubic, what is near longer gaps is left out",
+                     filled, rows_, gaps_, lacking_, most_filled)});
   if (const double jitter = std::sqrt(jitter_ / static_cast<double>(rows_)); jitter > 0.05)
     log.findings.push_back(
         {"jitter", -1, jitter, "steps",

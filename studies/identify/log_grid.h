@@ -28,6 +28,10 @@ class LogGrid {
   void put(double t, std::vector<double>& row, const Place& place);
   void append(const std::vector<double>& row, bool missing);
   void halve();
+  /// Returns the two rows on either side of a gap that are there and near; empty if one is not.
+  std::vector<std::size_t> neighboursOf(std::size_t first, std::size_t end) const;
+  /// Marks the gaps that stay, and fills the others.
+  void markGaps(MeasuredLog& log) const;
 
   std::size_t width_;
   std::vector<std::size_t> turning_;

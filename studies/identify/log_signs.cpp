@@ -1,24 +1,23 @@
 #include "studies/identify/results.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace ursula::identification {
 namespace {
 
-constexpr double surely_alike = 0.9, hardly_alike = 0.5;
+/// A mistake explains efforts if it leaves less than this share of their squared deviation.
+constexpr double explains = 0.05;
+/// Efforts are those of another unit if their factor is this far from 1, as a logarithm to base 10.
+constexpr double least_power = 1.5;
 
-/// Correlation of model and measurement without their means, and the factor between them.
-struct Likeness {
-  double correlation = 0, factor = 0;
-};
-
-Likeness likeness(const Eigen::VectorXd& model, const Eigen::VectorXd& measured) {
-  const Eigen::VectorXd s = model.array() - model.mean(), d = measured.array() - measured.mean();
-  const double size = s.norm() * d.norm();
-  return size > 0 ? Likeness{s.dot(d) / size, s.dot(d) / s.squaredNorm()} : Likeness{};
+double squares(const Eigen::VectorXd& model, const Eigen::VectorXd& measured) {
+  return (model - measured).squaredNorm();
 }
 
 void add(std::vector<LogFinding>& findings, std::vector<MeasuredCause>& causes, const char* kind, int motor,
@@ -31,6 +30,31 @@ void add(std::vector<LogFinding>& findings, std::vector<MeasuredCause>& causes, 
   cause.found = value;
   cause.explained = 1;
   causes.push_back(cause);
+}
+
+/// Looks for another order of the motors that explains the efforts. `left` has the squared deviation of the model's
+/// efforts (rows) from each measured column.
+bool findOrder(const Matrix6d& left, std::vector<LogFinding>& findings, std::vector<MeasuredCause>& causes) {
+  std::array<Eigen::Index, motor_count> column{};
+  std::vector<int> moved;
+  double before = 0, after = 0;
+  for (int k = 0; k < motor_count; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const double least = left.row(k).minCoeff(&column[at]);
+    if (std::find(column.begin(), column.begin() + k, column[at]) != column.begin() + k) return false;
+    if (column[at] == k) continue;
+    moved.push_back(k + 1);
+    before += left(k, k);
+    after += least;
+  }
+  if (moved.empty() || !(after < explains * before)) return false;
+  std::vector<Eigen::Index> found;
+  for (const int motor : moved) found.push_back(column[static_cast<std::size_t>(motor - 1)] + 1);
+  add(findings, causes, "order", moved.front() - 1, static_cast<double>(found.front()),
+      moved.size() == 2 ? fmt::format("the efforts of motors {} and {} look exchanged", moved[0], moved[1])
+                        : fmt::format("the efforts of motors {} look like those in the columns of motors {}",
+                                      fmt::join(moved, ", "), fmt::join(found, ", ")));
+  return true;
 }
 
 }  // namespace
@@ -65,31 +89,38 @@ void findSigns(MeasuredLog& log, const Motors& motors, std::vector<LogFinding>& 
 void findMistakes(const ModelledLog& modelled, const Motors& motors, std::vector<LogFinding>& findings,
                   std::vector<MeasuredCause>& causes) {
   const Eigen::MatrixXd measured = modelled.filtered().efforts(0), &model = modelled.efforts();
-  Eigen::Matrix<double, 6, 6> alike;
-  Vector6d factors;
+  Matrix6d left;
   for (int k = 0; k < motor_count; ++k)
-    for (int j = 0; j < motor_count; ++j) {
-      const Likeness found = likeness(model.col(k), measured.col(j));
-      alike(k, j) = found.correlation;
-      if (k == j) factors(k) = found.factor;
-    }
-  bool exchanged = false;
+    for (int j = 0; j < motor_count; ++j) left(k, j) = squares(model.col(k), measured.col(j));
+  const bool exchanged = findOrder(left, findings, causes);
   for (int k = 0; k < motor_count; ++k)
-    for (int j = k + 1; j < motor_count; ++j)
-      if (alike(k, j) > surely_alike && alike(j, k) > surely_alike && alike(k, k) < hardly_alike &&
-          alike(j, j) < hardly_alike) {
-        exchanged = true;
-        add(findings, causes, "order", k, j + 1,
-            fmt::format("the efforts of motors {} and {} look exchanged", k + 1, j + 1));
-      }
-  for (int k = 0; k < motor_count; ++k)
-    if (!exchanged && alike(k, k) < -surely_alike)
+    if (!exchanged && squares(-model.col(k), measured.col(k)) < explains * left(k, k))
       add(findings, causes, "sign", k, -1, fmt::format("the effort of motor {} has the other sign", k + 1));
-  const double power = factors.cwiseAbs().cwiseMax(1e-300).array().log10().mean();
-  if (alike.diagonal().minCoeff() > surely_alike && std::abs(power) > 1.5)
-    add(findings, causes, "units", -1, std::pow(10.0, power),
-        fmt::format("all efforts are {:.4g} times the model's: expected {}", std::pow(10.0, power),
-                    motors[0].slides() ? "N" : "N m"));
+  const double factor = model.cwiseProduct(measured).sum() / model.squaredNorm();
+  if (factor > 0 && std::abs(std::log10(factor)) > least_power &&
+      (model * factor - measured).squaredNorm() < explains * measured.squaredNorm())
+    add(findings, causes, "units", -1, factor,
+        fmt::format("all efforts are {:.4g} times the model's: expected {}", factor, motors[0].slides() ? "N" : "N m"));
+}
+
+void findUnitOfTime(double duration, double of_motion, std::vector<LogFinding>& findings,
+                    std::vector<MeasuredCause>& causes) {
+  constexpr double near = 0.02;
+  const std::array<std::pair<double, const char*>, 2> units = {{{1e3, "milliseconds"}, {1e6, "microseconds"}}};
+  for (const auto& [factor, unit] : units)
+    if (std::abs(duration / (factor * of_motion) - 1) < near)
+      add(findings, causes, "units", -1, factor,
+          fmt::format("the log lasts {:.4g} s and the scenario's motion {:.4g} s: its instants look like {}", duration,
+                      of_motion, unit));
+}
+
+bool isStill(const MeasuredLog& log) {
+  constexpr double of_noise = 12;  // the largest of 10 million normal deviates is within 6 deviations on either side
+  for (Eigen::Index k = 0; k < log.motion.cols(); ++k) {
+    const auto channel = log.motion.col(k);
+    if (channel.maxCoeff() - channel.minCoeff() > of_noise * whiteNoise(channel)) return false;
+  }
+  return true;
 }
 
 }  // namespace ursula::identification

@@ -37,9 +37,10 @@ struct MeasuredLog {
   int averaged = 1;        ///< file rows averaged in one row
   bool has_poses = false;  ///< `motion` has p (m) and q [w, x, y, z]; otherwise driven coordinates, rad or m
   bool by_currents = false;
-  Eigen::MatrixXd motion;   ///< an instant in each row, 6 or 7 columns
-  Eigen::MatrixXd efforts;  ///< N·m or N, an instant in each row, a motor in each column
-  Eigen::MatrixXd load;     ///< [moment about P; force] in B, an instant in each row; no columns without a load
+  Eigen::MatrixXd motion;         ///< an instant in each row, 6 or 7 columns
+  Eigen::MatrixXd efforts;        ///< N·m or N, an instant in each row, a motor in each column
+  Eigen::MatrixXd load;           ///< [moment about P; force] in B, an instant in each row; no columns without a load
+  std::vector<bool> filled = {};  ///< rows of short gaps, which a cubic fills; empty without any
   std::vector<bool> missing;
   std::vector<LogFinding> findings;
 

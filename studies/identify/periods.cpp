@@ -94,6 +94,7 @@ Periods averagePeriods(MeasuredLog& log) {
   log.efforts = averaged(log.efforts, out.rows, out.count, out.effort_noise);
   if (log.load.cols() > 0) log.load = averaged(log.load, out.rows, out.count, unused);
   log.missing.assign(out.rows, false);
+  log.filled.clear();
   return out;
 }
 
@@ -101,8 +102,8 @@ SampleNoise sampleNoise(const MeasuredLog& log, const Periods& periods) {
   const double share = 1 / std::sqrt(static_cast<double>(periods.count));
   if (periods.count > 1) return {periods.motion_noise * share, periods.effort_noise * share};
   SampleNoise out{Eigen::VectorXd(log.motion.cols()), Eigen::VectorXd(motor_count)};
-  for (Eigen::Index k = 0; k < log.motion.cols(); ++k) out.motion(k) = whiteNoise(log.motion.col(k));
-  for (Eigen::Index k = 0; k < motor_count; ++k) out.efforts(k) = whiteNoise(log.efforts.col(k));
+  for (Eigen::Index k = 0; k < log.motion.cols(); ++k) out.motion(k) = whiteNoise(log.motion.col(k), log.filled);
+  for (Eigen::Index k = 0; k < motor_count; ++k) out.efforts(k) = whiteNoise(log.efforts.col(k), log.filled);
   return out;
 }
 

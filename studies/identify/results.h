@@ -27,4 +27,11 @@ std::string identifySentence(const IdentifyResult& result);
 /// "" for a scenario that a program made.
 std::string identifiedScenario(const Scenario& scenario, const PhysicalEstimate& estimate);
 
+/// Adds what a log in milliseconds or microseconds shows: it lasts a thousand or a million times the scenario's motion.
+void findUnitOfTime(double duration, double of_motion, std::vector<LogFinding>& findings,
+                    std::vector<MeasuredCause>& causes);
+
+/// Whether no coordinate moves by more than its noise.
+bool isStill(const MeasuredLog& log);
+
 }  // namespace ursula::identification

@@ -49,6 +49,46 @@ Eigen::VectorXd wholeSpectrum(const Eigen::VectorXd& signal, double step) {
   return transformSquares(part) * (2 * step / window.squaredNorm());
 }
 
+/// Returns first rows and ends of the longest run without a missing row and of others at least a quarter as long.
+std::vector<std::pair<Eigen::Index, Eigen::Index>> longRuns(const std::vector<bool>& missing) {
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> runs;
+  const auto rows = static_cast<Eigen::Index>(missing.size());
+  Eigen::Index longest = 0;
+  for (Eigen::Index first = 0; first < rows;) {
+    const bool lacks = missing[static_cast<std::size_t>(first)];
+    const auto end = std::find(missing.begin() + first, missing.end(), !lacks) - missing.begin();
+    if (!lacks) runs.emplace_back(first, end), longest = std::max(longest, end - first);
+    first = end;
+  }
+  const auto is_short = [longest](const auto& run) { return 4 * (run.second - run.first) < longest; };
+  runs.erase(std::remove_if(runs.begin(), runs.end(), is_short), runs.end());
+  return runs;
+}
+
+/// Returns the bandwidth of one channel over rows without a gap.
+Bandwidth bandwidthOf(const Eigen::VectorXd& signal, double step, double noise) {
+  const double nyquist = 0.5 / step;
+  const Eigen::Index rows = signal.size() - 2;
+  const Eigen::VectorXd second = signal.tail(rows) - 2 * signal.segment(1, rows) + signal.head(rows);
+  const Eigen::VectorXd power = wholeSpectrum(second, step), wide = smoothed(power, 16), narrow = smoothed(power, 4);
+  const auto frequency = [&](Eigen::Index i) {
+    return nyquist * static_cast<double>(i) / static_cast<double>(power.size() - 1);
+  };
+  const auto floor = [&](Eigen::Index i) {
+    return 2 * step * noise * noise * std::pow(2 * std::sin(0.5 * pi * frequency(i) / nyquist), 4);
+  };
+  double total = 0;
+  std::vector<double> sums;
+  for (Eigen::Index i = 0; i < power.size(); ++i) {
+    total += wide(i) > 4 * floor(i) ? power(i) : 0;
+    sums.push_back(total);
+  }
+  Eigen::Index at = std::lower_bound(sums.begin(), sums.end(), 0.999 * total) - sums.begin();
+  const double most = frequency(at + 1);
+  while (at + 1 < power.size() && narrow(at) > 5 * floor(at)) ++at;
+  return {most, frequency(at + 1)};
+}
+
 double windowDeviation(double cut) { return 1 / (2 * pi * roll_off * cut); }
 
 /// Returns sin(a u) / (π u) and its first two derivatives.
@@ -99,20 +139,24 @@ Eigen::MatrixXd Kernel::apply(const Eigen::VectorXd& weights, const Eigen::Matri
   return out;
 }
 
-double whiteNoise(const Eigen::VectorXd& signal) {
+double whiteNoise(const Eigen::VectorXd& signal, const std::vector<bool>& filled) {
   constexpr Eigen::Index block = 64;
   // A median of squares is below their mean. A block has 64 / 3.17 independent ones, by their autocorrelation.
   const double median = std::pow(1 - 2 / (9 * 64 / 3.17), 3);
   std::vector<double> squares;
   for (Eigen::Index first = 0; first + 7 <= signal.size(); first += block) {
     double sum = 0;
+    Eigen::Index count = 0;
     const Eigen::Index end = std::min(first + block, signal.size() - 6);
     for (Eigen::Index i = first; i < end; ++i) {
+      const auto at = filled.begin() + (filled.empty() ? 0 : i);
+      if (!filled.empty() && std::find(at, at + 7, true) != at + 7) continue;
       const double d = signal(i) - 6 * signal(i + 1) + 15 * signal(i + 2) - 20 * signal(i + 3) + 15 * signal(i + 4) -
                        6 * signal(i + 5) + signal(i + 6);
       sum += d * d;
+      ++count;
     }
-    if (end > first) squares.push_back(sum / static_cast<double>(end - first));
+    if (count > 0) squares.push_back(sum / static_cast<double>(count));
   }
   if (squares.empty()) return 0;
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
@@ -174,34 +218,15 @@ Eigen::VectorXd powerSpectrum(const Eigen::VectorXd& signal, double step, int mo
 }
 
 Bandwidth motionBandwidth(const MeasuredLog& log) {
-  const double nyquist = 0.5 / log.step;
   Bandwidth out;
   const Eigen::VectorXd deviations = variances(log.motion).cwiseSqrt();
-  for (Eigen::Index k = 0; k < log.motion.cols(); ++k) {
-    if (deviations(k) < 1e-2 * deviations.maxCoeff() || log.rows() < 64) continue;
-    const Eigen::Index rows = log.rows() - 2;
-    const Eigen::VectorXd second =
-        log.motion.col(k).tail(rows) - 2 * log.motion.col(k).segment(1, rows) + log.motion.col(k).head(rows);
-    const Eigen::VectorXd power = wholeSpectrum(second, log.step), wide = smoothed(power, 16),
-                          narrow = smoothed(power, 4);
-    const double noise = whiteNoise(log.motion.col(k));
-    const auto frequency = [&](Eigen::Index i) {
-      return nyquist * static_cast<double>(i) / static_cast<double>(power.size() - 1);
-    };
-    const auto floor = [&](Eigen::Index i) {
-      return 2 * log.step * noise * noise * std::pow(2 * std::sin(0.5 * pi * frequency(i) / nyquist), 4);
-    };
-    double total = 0;
-    std::vector<double> sums;
-    for (Eigen::Index i = 0; i < power.size(); ++i) {
-      total += wide(i) > 4 * floor(i) ? power(i) : 0;
-      sums.push_back(total);
+  for (const auto& [first, end] : longRuns(log.missing))
+    for (Eigen::Index k = 0; k < log.motion.cols(); ++k) {
+      if (deviations(k) < 1e-2 * deviations.maxCoeff() || end - first < 64) continue;
+      const Bandwidth found = bandwidthOf(log.motion.col(k).segment(first, end - first), log.step,
+                                          whiteNoise(log.motion.col(k), log.filled));
+      out = {std::max(out.most, found.most), std::max(out.end, found.end)};
     }
-    Eigen::Index at = std::lower_bound(sums.begin(), sums.end(), 0.999 * total) - sums.begin();
-    out.most = std::max(out.most, frequency(at + 1));
-    while (at + 1 < power.size() && narrow(at) > 5 * floor(at)) ++at;
-    out.end = std::max(out.end, frequency(at + 1));
-  }
   return out;
 }
 

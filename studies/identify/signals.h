@@ -29,8 +29,8 @@ struct Kernel {
 };
 
 /// Returns the deviation of white noise on a signal that is smooth over seven rows. It is the median of blocks of sixth
-/// differences.
-double whiteNoise(const Eigen::VectorXd& signal);
+/// differences, without those that a `filled` row enters.
+double whiteNoise(const Eigen::VectorXd& signal, const std::vector<bool>& filled = {});
 
 /// Returns the variance of each column.
 Eigen::VectorXd variances(const Eigen::MatrixXd& channels);

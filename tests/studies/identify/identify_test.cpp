@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "base/csv.h"
 #include "studies/identify/excite.h"
@@ -81,11 +82,67 @@ TEST_F(Identify, effortsOfOtherMotorsOrUnitsAreSaidToBe) {
   rows.efforts.col(1).swap(rows.efforts.col(4));
   const IdentifyResult swapped = identify(scenario, logOf(rows, scenario), options);
   EXPECT_EQ(swapped.verdict, Verdict::fail);
-  EXPECT_FALSE(swapped.causes.empty());
-  rows.efforts.col(1).swap(rows.efforts.col(4));
+  ASSERT_FALSE(swapped.causes.empty());
+  EXPECT_EQ(swapped.causes[0].kind, "order");
+  rows.efforts.col(1).swap(rows.efforts.col(2));  // three in a circle
+  const IdentifyResult circle = identify(scenario, logOf(rows, scenario), options);
+  ASSERT_FALSE(circle.causes.empty());
+  EXPECT_EQ(circle.causes[0].kind, "order");
+  rows = syntheticRows(scenario, truth, how);
   rows.efforts *= 1e-3;
   const IdentifyResult scaled = identify(scenario, logOf(rows, scenario), options);
   EXPECT_TRUE(hasFinding(scaled, "units")) << identifyText(scaled);
+  EXPECT_EQ(scaled.causes.size(), 1U) << "numbers fitted to other units mean nothing";
+}
+
+TEST_F(Identify, instantsInMillisecondsAreSaidToBe) {
+  SyntheticRows rows = closedFormRows(scenario, 1001, 1, 1);
+  EXPECT_FALSE(hasFinding(identify(scenario, logOf(rows, scenario), options), "units"));
+  for (double& t : rows.t) t *= 1000;
+  const IdentifyResult result = identify(scenario, logOf(rows, scenario), options);
+  EXPECT_TRUE(hasFinding(result, "units")) << identifyText(result);
+}
+
+TEST_F(Identify, machineThatStandsStillIsNotJudged) {
+  SyntheticRows rows = syntheticRows(scenario, truth, how);
+  rows.motion = rows.motion.row(0).replicate(rows.motion.rows(), 1).eval();
+  const IdentifyResult result = identify(scenario, logOf(rows, scenario), options);
+  EXPECT_EQ(result.verdict, Verdict::inconclusive);
+  EXPECT_TRUE(hasFinding(result, "still")) << identifyText(result);
+}
+
+/// The delay would take on what the offset leaves, and the offset what the wrong delay leaves.
+TEST_F(Identify, offsetOfACoordinateIsNamedAndDelayStaysRight) {
+  how.delay = 2.3 / how.rate;
+  SyntheticRows rows = syntheticRows(scenario, truth, how);
+  rows.motion.col(2).array() += 2e-3;
+  const IdentifyResult result = identify(scenario, logOf(rows, scenario), options);
+  ASSERT_EQ(result.verdict, Verdict::fail) << identifyText(result);
+  ASSERT_FALSE(result.causes.empty());
+  EXPECT_EQ(result.causes[0].kind, "encoder_offset") << identifyText(result);
+  EXPECT_EQ(result.causes[0].motor, 3);
+  EXPECT_NEAR(std::abs(result.causes[0].found), 2e-3, 4e-4);
+  EXPECT_NEAR(result.delay * how.rate, 2.3, 0.2);
+}
+
+/// Single rows are lost at random, and a longer part once.
+TEST_F(Identify, rightModelPassesWithLostRows) {
+  SyntheticRows rows = syntheticRows(scenario, truth, how), kept = rows;
+  std::mt19937 random(1);
+  Eigen::Index count = 0;
+  for (Eigen::Index k = 0; k < rows.motion.rows(); ++k) {
+    if ((k > 8 && k + 8 < rows.motion.rows() && random() % 20 == 0) || (k >= 900 && k < 960)) continue;
+    kept.t[static_cast<std::size_t>(count)] = rows.t[static_cast<std::size_t>(k)];
+    kept.motion.row(count) = rows.motion.row(k);
+    kept.efforts.row(count++) = rows.efforts.row(k);
+  }
+  kept.t.resize(static_cast<std::size_t>(count));
+  kept.motion.conservativeResize(count, Eigen::NoChange);
+  kept.efforts.conservativeResize(count, Eigen::NoChange);
+  ASSERT_LT(count, rows.motion.rows() - 200);
+  const IdentifyResult result = identify(scenario, logOf(kept, scenario), options);
+  EXPECT_TRUE(hasFinding(result, "drop_outs"));
+  EXPECT_EQ(result.verdict, Verdict::pass) << identifyText(result);
 }
 
 /// Exact logs have no noise but rounding.

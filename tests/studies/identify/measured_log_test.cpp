@@ -35,10 +35,11 @@ class MeasuredLogs : public testing::Test {
   }
 
   /// Twenty rows; coordinate k is k + 0.1 t, effort k is 10 k + t.
-  static std::string rows(const std::string& header, const char* between, double time_unit = 1, int without = -1) {
+  static std::string rows(const std::string& header, const char* between, double time_unit = 1, int without = -1,
+                          int count = 1) {
     std::string out = header + "\n";
     for (int i = 0; i < 20; ++i) {
-      if (i == without) continue;
+      if (i >= without && i < without + count) continue;
       const double t = 0.01 * i;
       out += std::to_string(t * time_unit);
       for (int k = 1; k <= 6; ++k) out += between + std::to_string(k + 0.1 * t);
@@ -85,14 +86,20 @@ TEST_F(MeasuredLogs, degreesAreRadiansByTheirName) {
   EXPECT_NEAR(log.motion(0, 0), std::acos(-1.0) / 180, 1e-9);
 }
 
-TEST_F(MeasuredLogs, missingRowsAreFilledAndMarked) {
+TEST_F(MeasuredLogs, shortGapsAreFilledAndLongOnesMarked) {
   const MeasuredLog log = read(rows(own(), ",", 1, 7));
   expectRows(log);
-  EXPECT_TRUE(log.missing[7]);
-  EXPECT_FALSE(log.missing[6]);
+  EXPECT_FALSE(log.missing[7]);
+  EXPECT_TRUE(log.filled.at(7));
+  EXPECT_FALSE(log.filled[6]);
+  EXPECT_NEAR(log.motion(7, 0), 1 + 0.1 * 0.07, 1e-5);
   ASSERT_EQ(log.findings.size(), 1U);
   EXPECT_EQ(log.findings[0].kind, "drop_outs");
   EXPECT_EQ(log.findings[0].value, 1);
+  const MeasuredLog longer = read(rows(own(), ",", 1, 7, 4));
+  EXPECT_EQ(std::count(longer.missing.begin(), longer.missing.end(), true), 4);
+  EXPECT_TRUE(longer.missing[7]);
+  EXPECT_TRUE(longer.filled.empty());
 }
 
 /// A value that stays where its cell is empty would be a step, and steps look like a fast motion.

@@ -107,6 +107,22 @@ TEST(MotionBandwidth, isWhereTheAccelerationEnds) {
   EXPECT_LT(found.end, 10);
 }
 
+/// A gap is filled by a straight line, whose kinks would count as motion.
+TEST(MotionBandwidth, isThatOfTheRowsBesideAGap) {
+  MeasuredLog log = periodic(1, 1e-4);
+  const double whole = motionBandwidth(log).most;
+  const auto fillFrom = [&](Eigen::Index first, Eigen::Index end) {
+    for (Eigen::Index i = first; i < end; ++i)
+      log.motion.row(i) = log.motion.row(first - 1) + (log.motion.row(end) - log.motion.row(first - 1)) *
+                                                          static_cast<double>(i - first + 1) /
+                                                          static_cast<double>(end - first + 1);
+  };
+  fillFrom(1500, 1600);
+  EXPECT_GT(motionBandwidth(log).most, 2 * whole) << "taken for a motion";
+  for (std::size_t i = 1500; i < 1600; ++i) log.missing[i] = true;
+  EXPECT_LT(motionBandwidth(log).most, 1.5 * whole);
+}
+
 TEST(FourierSeries, endsWithTheLastHarmonicAboveTheNoise) {
   MeasuredLog log = periodic(1, 1e-4);
   const Periods periods = averagePeriods(log);
