@@ -21,7 +21,7 @@ namespace ursula {
 namespace {
 
 struct DirectOptions {
-  std::string scenario, phi, d, out = "-";
+  std::string scenario, phi, d, coordinates, out = "-";
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -35,7 +35,8 @@ struct NumbersOption {
   const char* symbol;  ///< "phi"
   const char* unit;
 };
-constexpr NumbersOption phi_option = {"--phi", "phi", "rad"}, d_option = {"--d", "d", "m"};
+constexpr NumbersOption phi_option = {"--phi", "phi", "rad"}, d_option = {"--d", "d", "m"},
+                        coordinates_option = {"--coordinates", "coordinate", "rad or m"};
 
 double readNumber(const NumbersOption& option, std::string_view cell, int index) {
   const std::string_view text = trimmed(cell);
@@ -122,8 +123,8 @@ void summarise(const PlatformPoses& poses) {
   }
 }
 
-int directOfPaper(const Scenario& scenario, const DirectOptions& options) {
-  const Vector6d phi = readNumbers(phi_option, options.phi);
+int directOfPaper(const Scenario& scenario, const std::string& text, const DirectOptions& options) {
+  const Vector6d phi = readNumbers(phi_option, text);
   PlatformPoses poses;
   try {
     poses = DirectKinematics(*scenario.manipulator).poses(phi);
@@ -138,13 +139,15 @@ int directOfPaper(const Scenario& scenario, const DirectOptions& options) {
   return exit_passed;                                // that there is no real pose is also an answer
 }
 
-std::string csvOf(const UpsPoses& poses) {
-  std::vector<std::string> names = {"pose", "p_x_m", "p_y_m", "p_z_m",        "q_w",
-                                    "q_x",  "q_y",   "q_z",   "multiplicity", "residual_m"};
+std::string csvOf(const Manipulator& machine, const Vector6d& driven, const UpsPoses& poses) {
+  std::vector<std::string> names = {"pose",   "p_x_m",  "p_y_m",        "p_z_m",      "q_w",    "q_x",
+                                    "q_y",    "q_z",    "multiplicity", "residual_m", "side_1", "side_2",
+                                    "side_3", "side_4", "side_5",       "side_6"};
   std::vector<std::vector<double>> columns(names.size());
   for (std::size_t k = 0; k < poses.list.size(); ++k) {
     const UpsPose& pose = poses.list[k];
-    const std::array<double, 10> row = {static_cast<double>(k + 1),
+    const auto side = [&](int i) -> double { return isOnItsBranch(machine.leg(i), driven(i), pose); };
+    const std::array<double, 16> row = {static_cast<double>(k + 1),
                                         pose.p.x(),
                                         pose.p.y(),
                                         pose.p.z(),
@@ -153,29 +156,38 @@ std::string csvOf(const UpsPoses& poses) {
                                         pose.q(2),
                                         pose.q(3),
                                         static_cast<double>(pose.multiplicity),
-                                        pose.residual};
+                                        pose.residual,
+                                        side(0),
+                                        side(1),
+                                        side(2),
+                                        side(3),
+                                        side(4),
+                                        side(5)};
     for (std::size_t column = 0; column < row.size(); ++column) columns[column].push_back(row[column]);
   }
   return csvText(names, columns);
 }
 
-int directOfStewartGough(const Scenario& scenario, const DirectOptions& options) {
-  const Vector6d lengths = readNumbers(d_option, options.d);
-  if (lengths.minCoeff() < 0) throw UsageError("--d: a length is negative, expected >= 0 m");
+int directOnSpheres(const Scenario& scenario, const NumbersOption& option, const std::string& text,
+                    const DirectOptions& options) {
+  const Manipulator& machine = *scenario.manipulator;
+  const Vector6d driven = readNumbers(option, text);
+  for (int i = 0; i < leg_count; ++i)
+    if (machine.leg(i).kind == LegKind::UPS && driven(i) < 0)
+      throw UsageError(fmt::format("{}: a length is negative, expected >= 0 m", option.option));
   UpsPoses poses;
   try {
-    poses = upsPoses(*scenario.manipulator, lengths);
+    poses = upsPoses(machine, driven);
   } catch (const UndeterminedPose& undetermined) {
-    say("these lengths do not determine the platform's poses: {}\n", undetermined.what());
+    say("these coordinates do not determine the platform's poses: {}\n", undetermined.what());
     return exit_inconclusive;
   }
-  writeOutput(options.out, csvOf(poses));
+  writeOutput(options.out, csvOf(machine, driven, poses));
   say("{} real pose{}; {} complex poses and {} solutions at infinity found, of 40\n", poses.list.size(),
       poses.list.size() == 1 ? "" : "s", poses.counted, poses.at_infinity);
-  if (const int leg = beyondStroke(*scenario.manipulator, lengths); leg >= 0)
-    say("leg {} cannot be {:g} m long: its stroke is from {:g} m to {:g} m\n", leg + 1, lengths(leg),
-        scenario.manipulator->leg(leg).distal.length,
-        scenario.manipulator->leg(leg).distal.length + scenario.manipulator->leg(leg).proximal.length);
+  if (const int leg = beyondStroke(machine, driven); leg >= 0)
+    say("leg {} cannot be {:g} m long: its stroke is from {:g} m to {:g} m\n", leg + 1, driven(leg),
+        machine.leg(leg).distal.length, machine.leg(leg).distal.length + machine.leg(leg).proximal.length);
   return poses.complete() ? exit_passed : exit_inconclusive;
 }
 
@@ -194,21 +206,34 @@ std::string inWords(const Manipulator& machine) {
   return fmt::format("{} legs: {}", machine.legCount(), fmt::join(kinds, "; "));
 }
 
+/// The option that takes the driven coordinates of this machine.
+const NumbersOption& optionFor(const Manipulator& machine) {
+  const Motors motors = machine.motors();
+  const auto slides = [](const Motor& motor) { return motor.slides(); };
+  if (std::all_of(motors.begin(), motors.end(), slides)) return d_option;
+  return std::none_of(motors.begin(), motors.end(), slides) ? phi_option : coordinates_option;
+}
+
 /// Refuses an option that does not suit the machine.
 int direct(const DirectOptions& options) {
   const Scenario scenario = readScenarioOrInput(options.scenario);
   const Manipulator& machine = *scenario.manipulator;
-  const bool of_paper = machine.isOfThePaper(), telescopic = isStewartGough(machine);
-  if (!of_paper && !telescopic)
+  const bool of_paper = machine.isOfThePaper();
+  if (!of_paper && !tipsAreOnSpheres(machine))
     throw UsageError(
-        fmt::format("direct: {}: has {}, expected six URS legs driven by phi (--phi) or six UPS legs driven by d (--d)",
+        fmt::format("direct: {}: has {}, expected six URS legs driven by phi, or six UPS, RUS or PUS legs, "
+                    "each driven by d, phi or d",
                     scenario.file.string(), inWords(machine)));
-  const char* takes = of_paper ? "--phi phi_1,...,phi_6" : "--d d_1,...,d_6";
-  const bool given = of_paper ? !options.phi.empty() : !options.d.empty();
-  const bool surplus = of_paper ? !options.d.empty() : !options.phi.empty();
-  if (!given || surplus)
-    throw UsageError(fmt::format("direct: {}: has {}, expected {}", scenario.file.string(), inWords(machine), takes));
-  return of_paper ? directOfPaper(scenario, options) : directOfStewartGough(scenario, options);
+  const NumbersOption& option = optionFor(machine);
+  const int count = !options.phi.empty() + !options.d.empty() + !options.coordinates.empty();
+  const std::string& own = &option == &phi_option ? options.phi
+                           : &option == &d_option ? options.d
+                                                  : options.coordinates;
+  const std::string& text = own.empty() ? options.coordinates : own;
+  if (count != 1 || text.empty())
+    throw UsageError(fmt::format("direct: {}: has {}, expected {} {}_1,...,{}_6", scenario.file.string(),
+                                 inWords(machine), option.option, option.symbol, option.symbol));
+  return of_paper ? directOfPaper(scenario, text, options) : directOnSpheres(scenario, option, text, options);
 }
 
 }  // namespace
@@ -218,14 +243,20 @@ void addDirect(CLI::App& app, std::function<int()>& run) {
   CLI::App* verb =
       app.add_subcommand("direct", "Computes every real pose of the platform for given leg angles or lengths, as CSV");
   verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
-  verb->add_option("--phi", options->phi, "Angles of six URS legs, rad, separated by commas: phi_1,...,phi_6");
-  verb->add_option("--d", options->d, "Lengths of six UPS legs, m, separated by commas: d_1,...,d_6");
+  verb->add_option("--phi", options->phi,
+                   "Angles of six URS or six RUS legs, rad, separated by commas: phi_1,...,phi_6");
+  verb->add_option("--d", options->d, "Lengths or strokes of six UPS or PUS legs, m, separated by commas: d_1,...,d_6");
+  verb->add_option("--coordinates", options->coordinates,
+                   "Driven coordinates of legs of any kinds, rad or m, in the motors' order, separated by commas");
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
   verb->footer(
-      "Each row is one pose. UPS legs have at most 40 poses, URS legs at most eight; poses that assemble come first.\n"
+      "Each row is one pose. URS legs have at most eight poses, those that assemble come first; other legs at most "
+      "40.\n"
       "A pose that leg i cannot reach has assembles = 0, reach_i = 0 and psi_i, theta_i = nan. If side_i = 1, inverse\n"
       "kinematics returns phi_i for B_i; if it is 0, inverse kinematics returns phi_i ± pi. psi and theta are for the\n"
-      "manipulator's own bend of each knee; the other bend also reaches.\n"
+      "manipulator's own bend of each knee; the other bend also reaches. For other legs side_i = 0 says that the leg "
+      "is\n"
+      "beyond its stroke (UPS) or bends the other way (RUS, PUS).\n"
       "Exit code: 0 every real pose was found (if there is none, only the header is written), 2 bad input, 3 the\n"
       "angles leave the platform free to move, or a pose may be missing.");
   verb->callback([options, &run] { run = [options] { return direct(*options); }; });

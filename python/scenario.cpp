@@ -178,8 +178,8 @@ std::vector<PlatformPose> posesOfPaper(const DirectKinematics& kinematics, const
   return {poses.begin(), poses.end()};
 }
 
-std::vector<PlatformPose> posesOfStewartGough(const Manipulator& machine, const Vector6d& lengths) {
-  const UpsPoses poses = upsPoses(machine, lengths);
+std::vector<PlatformPose> posesOnSpheres(const Manipulator& machine, const Vector6d& driven) {
+  const UpsPoses poses = upsPoses(machine, driven);
   if (!poses.complete()) refuseIncomplete(poses.counted + poses.at_infinity, 40);
   std::vector<PlatformPose> out;
   for (const UpsPose& pose : poses.list) {
@@ -189,8 +189,9 @@ std::vector<PlatformPose> posesOfStewartGough(const Manipulator& machine, const 
     row.q = pose.q;
     row.multiplicity = pose.multiplicity;
     row.residual = pose.residual;
-    row.assembles = beyondStroke(machine, lengths) < 0;
-    row.front = true;  // a UPS leg has one inverse solution
+    row.assembles = beyondStroke(machine, driven) < 0;
+    row.front = true;
+    for (int i = 0; i < leg_count; ++i) row.front = row.front && isOnItsBranch(machine.leg(i), driven(i), pose);
   }
   return out;
 }
@@ -198,13 +199,15 @@ std::vector<PlatformPose> posesOfStewartGough(const Manipulator& machine, const 
 std::vector<PlatformPose> directKinematics(const ScenarioWithSolver& self, const py::object& coordinates) {
   const py::array_t<double> given = rowsOf(coordinates, leg_count, "coordinates");
   if (given.shape(0) != 1) throw py::value_error("coordinates: expected six numbers, of one pose");
-  if (!isStewartGough(*self.scenario.manipulator) && !self.scenario.manipulator->isOfThePaper())
+  const bool on_spheres = tipsAreOnSpheres(*self.scenario.manipulator);
+  if (!on_spheres && !self.scenario.manipulator->isOfThePaper())
     throw py::value_error(
-        "direct_kinematics: all poses are known for six URS legs driven by phi and for six UPS legs driven by d only");
+        "direct_kinematics: all poses are known for six URS legs driven by phi, and for six UPS, RUS or PUS legs, also "
+        "mixed, each driven by d, phi or d");
   const Vector6d driven = Eigen::Map<const Vector6d>(given.data());
   const py::gil_scoped_release unlocked;
   const Manipulator& machine = *self.scenario.manipulator;
-  return isStewartGough(machine) ? posesOfStewartGough(machine, driven) : posesOfPaper(self.kinematics, driven);
+  return on_spheres ? posesOnSpheres(machine, driven) : posesOfPaper(self.kinematics, driven);
 }
 
 py::array_t<double> vectorOf(const double* from, py::ssize_t count) { return py::array_t<double>(count, from); }

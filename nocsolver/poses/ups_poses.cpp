@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "nocsolver/legs/fixed_frame.h"
 #include "nocsolver/poses/direct_kinematics.h"
 #include "nocsolver/poses/ups_poses_newton.h"
 #include "nocsolver/poses/ups_poses_roots.h"
@@ -87,6 +88,23 @@ ups::Roots allRoots(const ups::Legs& legs) {
   return tracked.all() > ring.all() ? tracked : ring;
 }
 
+/// The sphere of a leg's platform point while its motor holds, and the fixed frame of (2a).
+struct Sphere {
+  Vector3d centre, x_hat, u, z_hat;
+  double radius = 0;
+
+  Sphere(const Leg& leg, double driven) : centre(leg.base_point), radius(leg.distal.length) {
+    setFixedFrame<double>(leg.base_axis, x_hat, u, z_hat);
+    if (leg.kind == LegKind::UPS) radius = driven;
+    if (leg.kind == LegKind::RUS) centre += leg.proximal.length * (std::cos(driven) * z_hat - std::sin(driven) * x_hat);
+    if (leg.kind == LegKind::PUS) centre += driven * u;
+  }
+};
+
+bool isWithinStroke(const Leg& leg, double d) {
+  return d > leg.distal.length && d < leg.distal.length + leg.proximal.length;
+}
+
 }  // namespace
 
 UpsPoses upsPoses(const Points& base_points, const Points& platform_points, const Vector6d& lengths) {
@@ -116,27 +134,40 @@ UpsPoses upsPoses(const Points& base_points, const Points& platform_points, cons
   return out;
 }
 
-bool isStewartGough(const Manipulator& machine) {
+bool tipsAreOnSpheres(const Manipulator& machine) {
   const std::vector<Leg>& legs = machine.parameters().legs;
   return legs.size() == leg_count && std::all_of(legs.begin(), legs.end(), [](const Leg& leg) {
-           return leg.kind == LegKind::UPS && leg.actuated == std::array<bool, 3>{false, false, true};
+           return leg.kind != LegKind::URS && std::count(leg.actuated.begin(), leg.actuated.end(), true) == 1 &&
+                  leg.actuated[rowOf(leg.kind).actuated];
          });
 }
 
-UpsPoses upsPoses(const Manipulator& machine, const Vector6d& lengths) {
-  Points base, platform;
-  for (std::size_t i = 0; i < leg_count; ++i) {
-    base[i] = machine.leg(static_cast<int>(i)).base_point;
-    platform[i] = machine.leg(static_cast<int>(i)).platform_point;
+UpsPoses upsPoses(const Manipulator& machine, const Vector6d& driven) {
+  Points centres, platform;
+  Vector6d radii;
+  for (int i = 0; i < leg_count; ++i) {
+    const Sphere sphere(machine.leg(i), driven(i));
+    centres[static_cast<std::size_t>(i)] = sphere.centre;
+    platform[static_cast<std::size_t>(i)] = machine.leg(i).platform_point;
+    radii(i) = sphere.radius;
   }
-  return upsPoses(base, platform, lengths);
+  return upsPoses(centres, platform, radii);
 }
 
-int beyondStroke(const Manipulator& machine, const Vector6d& lengths) {
-  for (int i = 0; i < leg_count; ++i) {
-    const double s = machine.leg(i).distal.length, l = machine.leg(i).proximal.length;
-    if (!(lengths(i) > s && lengths(i) < s + l)) return i;
-  }
+bool isOnItsBranch(const Leg& leg, double driven, const UpsPose& pose) {
+  if (leg.kind == LegKind::UPS) return isWithinStroke(leg, driven);
+  const Sphere sphere(leg, driven);
+  const Vector3d along = pose.p + pose.Q * leg.platform_point - sphere.centre;
+  // The sign of cos θ, or of sin ψ, where φ + ψ is the rod's angle about −û.
+  const double side = leg.kind == LegKind::PUS
+                          ? along.dot(sphere.u)
+                          : std::sin(std::atan2(-along.dot(sphere.x_hat), along.dot(sphere.z_hat)) - driven);
+  return leg.knee == Knee::positive ? side > 0 : side < 0;
+}
+
+int beyondStroke(const Manipulator& machine, const Vector6d& driven) {
+  for (int i = 0; i < leg_count; ++i)
+    if (machine.leg(i).kind == LegKind::UPS && !isWithinStroke(machine.leg(i), driven(i))) return i;
   return -1;
 }
 

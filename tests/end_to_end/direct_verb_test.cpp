@@ -121,13 +121,29 @@ TEST_F(DirectVerb, TellsNoPoseFromNoDeterminedPose) {
   EXPECT_NE(free.err.find("free to move along a line"), std::string::npos) << free.err;
 }
 
-TEST_F(DirectVerb, RefusesMachinesThatItDoesNotKnowByWhatIsPossible) {
+TEST_F(DirectVerb, FindsThePoseAgainForLegsOfCrankAndRod) {
   ASSERT_EQ(ursula_("init rus.toml --kind RUS").exit_code, 0);
-  const auto crank = ursula_("direct rus.toml --phi 1,2,3,4,5,6 --out poses.csv");
-  EXPECT_EQ(crank.exit_code, 2);
-  EXPECT_NE(crank.err.find("has 6 legs: RUS legs driven by phi, expected six URS legs driven by phi (--phi)"),
-            std::string::npos)
-      << crank.err;
+  const CsvTable inverse = table(ursula_("inverse rus.toml --samples 3").out);
+  for (const std::string option : {"--phi", "--coordinates"}) {
+    const auto run = ursula_("direct rus.toml " + option + " '" + anglesOf(inverse, 1) + "'");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const CsvTable poses = table(run.out);
+    double nearest = 1;
+    for (std::size_t k = 0; k < poses.rows(); ++k)
+      if (const double apart =
+              std::hypot(poses.at("p_x_m")[k] - inverse.at("p_x_m")[1], poses.at("p_y_m")[k] - inverse.at("p_y_m")[1],
+                         poses.at("p_z_m")[k] - inverse.at("p_z_m")[1]);
+          poses.at("side_1")[k] == 1 && poses.at("side_6")[k] == 1)
+        nearest = std::min(nearest, apart);
+    EXPECT_LT(nearest, 1e-9);
+  }
+}
+
+TEST_F(DirectVerb, RefusesMachinesThatItDoesNotKnowByWhatIsPossible) {
+  const auto mixed = ursula_("direct '" URSULA_SCENARIOS "/mixture.toml' --coordinates 1,2,3,4,5,6 --out poses.csv");
+  EXPECT_EQ(mixed.exit_code, 2);
+  EXPECT_NE(mixed.err.find("expected six URS legs driven by phi, or six UPS, RUS or PUS legs"), std::string::npos)
+      << mixed.err;
   EXPECT_FALSE(std::filesystem::exists(ursula_.folder() / "poses.csv"));
   const auto lengths = ursula_("direct " + helix + " --d 1,2,3,4,5,6");
   EXPECT_EQ(lengths.exit_code, 2);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "model/scenario.h"
+#include "nocsolver/solver.h"
 #include "tests/nocsolver/ups_poses_cases.h"
 
 namespace ursula {
@@ -154,6 +156,64 @@ TEST(UpsPoses, DoNotDependOnUnitsAndOrigins) {
   EXPECT_EQ(poses.counted, 40);
   EXPECT_EQ(poses.list.size(), before);
   EXPECT_LE(nearest(poses, made.at), unit * expectedError(thrown(6002)) * origin.norm());
+}
+
+Vector6d drivenAt(const Manipulator& machine, const Motion<double>& motion) {
+  const Solver<double> solver(machine);
+  Workspace<double> work;
+  solver.inverseKinematics(motion, work);
+  const JointVariables<double> joints = solver.angles(work);
+  Vector6d out;
+  for (int i = 0; i < leg_count; ++i) {
+    const LegKindRow& row = rowOf(machine.leg(i).kind);
+    out(i) = joints.of(row.coordinates[row.actuated])(i);
+  }
+  return out;
+}
+
+/// Legs of RUS, PUS and UPS under one platform: the mixture without its URS legs.
+Manipulator mixedMachine(const Scenario& mixture) {
+  ManipulatorParameters machine = mixture.manipulator->parameters();
+  const Motion<double> motion = mixture.trajectory->at(0);
+  for (Leg& leg : machine.legs)
+    if (leg.kind == LegKind::URS) {
+      const double d = (motion.p + motion.Q * leg.platform_point - leg.base_point).norm();
+      leg.kind = LegKind::UPS;
+      leg.actuated = {false, false, true};
+      leg.distal.length = 0.6 * d;
+      leg.proximal.length = 0.8 * d;
+    }
+  return Manipulator(machine);
+}
+
+void expectFoundAgain(const Manipulator& machine, const Motion<double>& motion) {
+  ASSERT_TRUE(tipsAreOnSpheres(machine));
+  const Vector6d driven = drivenAt(machine, motion);
+  const UpsPoses poses = upsPoses(machine, driven);
+  EXPECT_TRUE(poses.complete());
+  const auto apart = [&](const UpsPose& pose) { return distance(pose, {motion.p, motion.Q}); };
+  const auto nearest = std::min_element(poses.list.begin(), poses.list.end(),
+                                        [&](const UpsPose& a, const UpsPose& b) { return apart(a) < apart(b); });
+  ASSERT_NE(nearest, poses.list.end());
+  EXPECT_LE(apart(*nearest), 1e-10);
+  for (int i = 0; i < leg_count; ++i) {
+    Leg leg = machine.leg(i);
+    EXPECT_TRUE(isOnItsBranch(leg, driven(i), *nearest)) << i;
+    leg.knee = leg.knee == Knee::positive ? Knee::negative : Knee::positive;
+    EXPECT_EQ(isOnItsBranch(leg, driven(i), *nearest), leg.kind == LegKind::UPS) << i;
+  }
+}
+
+TEST(UpsPoses, AreThoseOfCranksAndCarriagesToo) {
+  for (const char* name : {"hexa", "hexaglide", "flight-simulator"}) {
+    SCOPED_TRACE(name);
+    const Scenario scenario = readScenario(std::string(URSULA_SCENARIOS) + "/" + name + ".toml");
+    for (const double share : {0.1, 0.5, 0.9})
+      expectFoundAgain(*scenario.manipulator, scenario.trajectory->at(share * scenario.trajectory->duration()));
+  }
+  const Scenario mixture = readScenario(URSULA_SCENARIOS "/mixture.toml");
+  EXPECT_FALSE(tipsAreOnSpheres(*mixture.manipulator));
+  expectFoundAgain(mixedMachine(mixture), mixture.trajectory->at(0));
 }
 
 TEST(UpsPoses, RefuseWhatIsNoMachine) {

@@ -70,9 +70,11 @@ def test_legs_of_every_kind(kind, program, tmp_path):
                 assert np.array_equal(joints[name + rate][:, i], of_program[column])
     a, alpha = s.forward_dynamics(m, tau)
     assert np.allclose(a, m.a, rtol=0, atol=1e-11) and np.allclose(alpha, m.alpha, rtol=0, atol=1e-11)
-    if kind != "UPS":
-        with pytest.raises(ValueError, match="URS"):
-            s.direct_kinematics(np.zeros(6))
+    joints = s.inverse_kinematics(m[1])
+    poses = s.direct_kinematics(joints["phi" if kind in ("URS", "RUS") else "d"][0])
+    apart, pose = min((np.abs(pose.p - m.p[1]).max() + np.abs(pose.Q - m.Q[1]).max(), k)
+                      for k, pose in enumerate(poses))
+    assert apart < 1e-9 and poses[pose].front and poses[pose].assembles
 
 
 def test_any_number_of_threads_gives_the_same_numbers(helix):
