@@ -46,7 +46,10 @@ EffortTolerance readTolerance(const TomlSection& table) {
   for (const auto& [key, member] :
        {std::pair("relative", &EffortTolerance::relative), {"absolute", &EffortTolerance::absolute}}) {
     if (!table.table().contains(key)) continue;
-    table.require(key, tolerance.*member);
+    if (scenarioTable("acceptance.torque").key(key).type == KeyType::share)
+      table.requireShare(key, tolerance.*member);
+    else
+      table.require(key, tolerance.*member);
     table.requireBound(scenarioTable("acceptance.torque").key(key), tolerance.*member);
   }
   return tolerance;
@@ -69,9 +72,11 @@ void readAcceptance(const TomlSection& table, const std::string& prefix, Scenari
     }
     AcceptanceLimit limit;
     limit.check = prefix + name;
-    const std::vector<std::string> known = namesOfChecks();
-    if (std::find(known.begin(), known.end(), limit.check) == known.end())
+    std::vector<std::string> known = namesOfChecks();
+    if (std::find(known.begin(), known.end(), limit.check) == known.end()) {
+      known.insert(known.end(), {"torque.relative", "torque.absolute"});
       table.fail(name, fmt::format("'{}' is not a check{}", shown(limit.check), didYouMean(limit.check, known)));
+    }
     table.require(name, limit.limit);
     if (!(limit.limit > 0)) table.fail(name, fmt::format("{}, expected a number > 0", limit.limit));
     const auto same = [&](const AcceptanceLimit& other) { return other.check == limit.check; };

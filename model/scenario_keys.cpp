@@ -102,7 +102,7 @@ ScenarioTable tolerance() {
   return {"acceptance.torque",
           "torque = { … }",
           "At least one of the two.",
-          {{"relative", KeyType::number, "", no_default, "of the largest effort of the motion", above_zero},
+          {{"relative", KeyType::share, "", no_default, "of the largest effort of the motion, or `\"1%\"`", above_zero},
            {"absolute", KeyType::number, "N·m or N", no_default, "", above_zero}}};
 }
 

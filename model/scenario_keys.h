@@ -8,6 +8,7 @@ namespace ursula {
 
 enum class KeyType {
   number,
+  share,  ///< a number, or a percentage as text
   integer,
   string,
   choice,

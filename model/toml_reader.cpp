@@ -8,6 +8,7 @@
 #include <regex>
 #include <sstream>
 
+#include "base/leading_number.h"
 #include "base/nearest.h"
 #include "base/shown_text.h"
 #include "base/toml_bounds.h"
@@ -151,6 +152,16 @@ bool TomlSection::read(const std::string& key, double& value) const {
   const toml::node* node = table_->get(key);
   if (node) value = number(*node, placeOf(key));
   return node != nullptr;
+}
+
+void TomlSection::requireShare(const std::string& key, double& value) const {
+  const toml::node* node = table_->get(key);
+  if (!node || !node->is_string()) return require(key, value);
+  const std::string& text = node->as_string()->get();
+  const LeadingNumber number = leadingNumber(text);
+  if (number.length == 0 || text.substr(number.length) != "%")
+    fail(key, fmt::format("'{}', expected a number or a percentage, such as 0.01 or \"1%\"", shown(text)));
+  value = number.value / 100;
 }
 
 bool TomlSection::read(const std::string& key, int& value) const {

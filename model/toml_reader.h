@@ -67,6 +67,9 @@ class TomlSection {
     if (!read(key, value)) missing(key, expectation(value));
   }
 
+  /// Reads a number, or a percentage as text: "1%" is 0.01.
+  void requireShare(const std::string& key, double& value) const;
+
   std::optional<TomlSection> section(const std::string& key) const;
   TomlSection requiredSection(const std::string& key) const;
   /// Reads an array of tables, `key[1]`, `key[2]`, …; empty if the key is missing.

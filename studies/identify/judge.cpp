@@ -131,6 +131,16 @@ double thresholdOf(double risk, double count, Eigen::Index freedom) {
   return boost::math::quantile(boost::math::complement(distribution, risk / (2 * std::max(count, 1.0))));
 }
 
+/// Whether a mass, an inertia or a friction explains all but a hundredth of the squared deviation. What it leaves is
+/// then no other cause, but what is beyond the linearisation, which a log with little noise shows.
+bool oneExplainsAll(const std::vector<const Suspect*>& suspects, const Eigen::MatrixXd& columns,
+                    const Allowance& allowance, const Eigen::VectorXd& z) {
+  const std::vector<Score> scores = scoresOf(columns, allowance(columns), z);
+  const std::size_t best = likeliestOf(scores, suspects);
+  return !isOutside(suspects[best]->direction.kind) &&
+         scores[best].score * scores[best].score > 0.99 * z.dot(allowance(z).col(0));
+}
+
 const Eigen::VectorXd& columnOf(const MeasuredCause& cause, const std::vector<Suspect>& suspects) {
   return std::find_if(suspects.begin(), suspects.end(),
                       [&cause](const Suspect& each) {
@@ -257,13 +267,12 @@ Judgement judge(const SquareRoot& model, const Comparison& comparison, const std
   const Eigen::MatrixXd basis = basisOf(model.R.leftCols(comparison.further()));
   Eigen::MatrixXd all_linear = basis * 1e5, with_tolerances(model.R.rows(), all_linear.cols() + columns.cols());
   with_tolerances << all_linear, columns;
-  Allowance beyond_numbers(with_tolerances);
-  findCauses(outside, beyond_numbers, model.z,
-             thresholdOf(risk_outside, static_cast<double>(outside.size()), noise_freedom), true, out.causes);
-
-  Allowance allowance(columns);
-  for (const MeasuredCause& cause : out.causes) allowance.free(columnOf(cause, suspects));
+  Allowance beyond_numbers(with_tolerances), allowance(columns);
   const Eigen::MatrixXd every = columnsOf(all, model.R.rows()), everything = basisOf(every);
+  if (!oneExplainsAll(all, every, allowance, model.z))
+    findCauses(outside, beyond_numbers, model.z,
+               thresholdOf(risk_outside, static_cast<double>(outside.size()), noise_freedom), true, out.causes);
+  for (const MeasuredCause& cause : out.causes) allowance.free(columnOf(cause, suspects));
   out.freedom = everything.cols();
   out.threshold = thresholdOf(risk_of_number, static_cast<double>(out.freedom), noise_freedom);
   const std::vector<Score> scores = scoresOf(every, allowance(every), model.z);

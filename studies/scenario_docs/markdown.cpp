@@ -34,6 +34,8 @@ std::string typeWords(const ScenarioKey& key) {
   switch (key.type) {
     case KeyType::number:
       return "number";
+    case KeyType::share:
+      return "number or percentage";
     case KeyType::integer:
       return "integer";
     case KeyType::string:

@@ -39,6 +39,8 @@ Json typeOf(const ScenarioKey& key) {
   switch (key.type) {
     case KeyType::number:
       return {{"$ref", "#/$defs/number"}};
+    case KeyType::share:
+      return {{"anyOf", {Json{{"$ref", "#/$defs/number"}}, Json{{"type", "string"}, {"pattern", "^[^%]+%$"}}}}};
     case KeyType::integer:
       return {{"type", "integer"}};
     case KeyType::string:

@@ -108,6 +108,7 @@ std::string expectation(const ScenarioKey& key) {
       return "expected an array of 3 numbers";
     case KeyType::quaternion:
       return "expected an array of 4 numbers";
+    case KeyType::share:
     case KeyType::center:
       return "expected a number";
     case KeyType::inertia:

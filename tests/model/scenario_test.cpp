@@ -117,6 +117,16 @@ TEST(Scenario, flattensTheNamesOfChecks) {
                                             std::pair("torque.pointwise", 3.0)));
 }
 
+TEST(Scenario, readsAToleranceAsNumberOrPercentage) {
+  const auto relative = [](const std::string& value) {
+    return parsed("[trajectory]", "[acceptance]\ntorque = { relative = " + value + ", absolute = 2 }\n[trajectory]")
+        .tolerance.value();
+  };
+  EXPECT_EQ(relative("0.015").relative, 0.015);
+  EXPECT_EQ(relative("\"1.5%\"").relative, 0.015);
+  EXPECT_EQ(relative("\"1.5%\"").absolute, 2);
+}
+
 TEST(Scenario, readFromAFileIsThatOfItsText) {
   const TemporaryFolder folder;
   const Scenario scenario = readScenario(folder.write("small.toml", good_scenario));

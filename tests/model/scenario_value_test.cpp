@@ -78,7 +78,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "[acceptance]\nenergy.balance = 1\n\"energy.balance\" = @2\n[trajectory]",
                 "acceptance.energy.balance: a second limit for one check, expected one"},
         Refusal{"limit_misspelt", "[trajectory]", "[acceptance]\ntorque.pontwise = @2\n[trajectory]",
-                "acceptance.torque.pontwise: 'torque.pontwise' is not a check, did you mean 'torque.pointwise'?"}),
+                "acceptance.torque.pontwise: 'torque.pontwise' is not a check, did you mean 'torque.pointwise'?"},
+        Refusal{"tolerance_misspelt", "[trajectory]", "[acceptance]\ntorqe.relative = @2\n[trajectory]",
+                "acceptance.torqe.relative: 'torqe.relative' is not a check, did you mean 'torque.relative'?"},
+        Refusal{"tolerance_no_share", "[trajectory]", "[acceptance]\ntorque.relative = @\"1 of 9\"\n[trajectory]",
+                "acceptance.torque.relative: '1 of 9', expected a number or a percentage, such as 0.01 or \"1%\""}),
     nameOf);
 
 TEST(ImpossibleScenario, hasLegsTooShort) {

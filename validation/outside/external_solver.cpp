@@ -30,7 +30,7 @@ class Process {
   Vector6d torques(const Motion<double>& motion) {
     const std::string question = solverQuestion(motion);
     if (const std::string unasked = process_.unasked(); !unasked.empty())
-      refuse("wrote more than one line for each that it was asked", question, unasked);
+      refuse("wrote something that it was not asked for, expected one line for each question", question, unasked);
     const LineProcess::Answer answer = process_.ask(question, options_.timeout);
     if (answer.end != LineProcess::End::line) refuse(why(answer.end), question, answer.text);
     try {

@@ -42,5 +42,18 @@ TEST(ClosedFormLogs, massThatIsSlightlyOffFails) {
   }
 }
 
+/// Without noise, what is beyond the linearisation exceeds all noise, and would be taken for an offset of a joint.
+TEST(ClosedFormLogs, massIsTheFirstCauseWithoutNoise) {
+  const Scenario scenario = scenarioOf("hexaglide");
+  ManipulatorParameters heavier = scenario.manipulator->parameters();
+  heavier.platform.mass *= 1.05;
+  Scenario other = scenario;
+  other.manipulator = std::make_shared<Manipulator>(heavier);
+  const IdentifyResult result = identify(scenario, logOf(closedFormRows(other, 1501, 0, 1), scenario));
+  ASSERT_FALSE(result.causes.empty()) << identifyText(result);
+  EXPECT_EQ(result.causes.front().parameter, "manipulator.platform.mass") << identifyText(result);
+  EXPECT_GT(result.causes.front().explained, 0.99);
+}
+
 }  // namespace
 }  // namespace ursula
