@@ -196,22 +196,22 @@ def readme(found, context, scenarios):
     versions = "; ".join(f"{name} {version}" for name, version in packages().items())
     lines = [
         "# Performance, measured", "",
-        "Made by `./dev results performance`; what is measured, how, and how peers are used: [docs/performance.md](../../docs/performance.md).", "",
+        "`./dev results performance` makes this page. [docs/performance.md](../../docs/performance.md) says what is measured, how, and how peers are used.", "",
         f"- Machine: {machine(context)}. It is shared, and its speed varies: load average "
-        f"{', '.join(f'{x:.2g}' for x in context['load_avg'])} when this began; half of the repetitions lie within {100 * spread:.0f} % "
+        f"{', '.join(f'{x:.2g}' for x in context['load_avg'])} at the start. Half of the repetitions lie within {100 * spread:.0f} % "
         "(median over the benchmarks). Compare ratios, not times of different days.",
         f"- Build: commit `{context['commit']}`, {context['compiler']}, `{context['flags']}`; kernels of batches by instruction set.",
         f"- Library builds, as Debian ships them: {versions or 'unknown'}.",
-        f"- Medians of {repetitions} repetitions in random order, all in one process; CPU time, but for threads.", "",
+        f"- Medians of {repetitions} repetitions in random order, all in one process; CPU time, except for threads.", "",
         "## Side by side on the paper's helix", "",
-        "Time of one pose. Peers begin with the joints' motion, handed over in their own coordinates; *with kinematics* the closed forms find "
-        "that first, from the platform's motion, with which ursula begins. *Times ursula's* is to `ursula`, one pose at a time; of peers without the kinematics, which is in their favour. Batches are of 1,000 poses, one thread. The disagreement is the "
-        "largest difference from the paper's equations, over the largest effort or acceleration; it was asserted before anything was timed.", "",
+        "The times are of one pose. Peers begin with the joints' motion in their own coordinates. ursula begins with the platform's motion. *With kinematics*, the "
+        "closed forms first find the joints' motion from it. *Times ursula's* is relative to `ursula`, one pose at a time. For peers it is without the kinematics, in their favour. Batches have 1,000 poses on one thread. The disagreement is the "
+        "largest difference from the paper's equations, over the largest effort or acceleration. It was checked before anything was timed.", "",
         *side_by_side(found, agreements(context)), "",
-        "Debian's Simbody is not built for speed: a native Release build is two to three times faster. *MuJoCo, soft* is `mj_forward` "
-        "with its own constraints, which leave out J̇ q̇ and yield; *MuJoCo* and *DART* are their trees, closed exactly by their own Jacobians.", "",
+        "Debian's Simbody is not built for speed. A native Release build is two to three times faster. *MuJoCo, soft* is `mj_forward` "
+        "with its own constraints, which leave out J̇ q̇ and yield. *MuJoCo* and *DART* are their trees, closed exactly by their own Jacobians.", "",
         "### Measured elsewhere, not here", "",
-        "Engines that Debian does not package, on one core of another machine (Zen 5, 4.5 GHz, AVX-512); their times do not stand beside those above.", "",
+        "Debian does not package these engines. They ran on one core of another machine (Zen 5, 4.5 GHz, AVX-512), so their times do not compare with those above.", "",
         "| engine | inverse, µs | with kinematics, µs | direct, µs |", "| --- | --- | --- | --- |",
         "| Pinocchio 3.7 | 3.6 | 4.4 | 6.5 |", "| RBDL | 15 | — | 11.5 |", "| Chrono | — | — | 71 |", "",
         "## How cost grows", "", "![Samples](figures/samples.svg)", "", *threads(found), "", "![Threads](figures/threads.svg)", ""]
