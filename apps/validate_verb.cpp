@@ -148,10 +148,20 @@ void requireSense(const ValidateOptions& options, const std::vector<SuiteMember>
     throw UsageError("--solver: got - as the scenario, expected a file, because the command gets its path");
 }
 
+/// A folder is a suite even if it holds one scenario, because scripts then find the same files.
+bool isSuite(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
+  const auto is_folder = [](const std::string& each) {
+    std::error_code ignored;
+    return std::filesystem::is_directory(each, ignored);
+  };
+  return members.size() > 1 ||
+         (options.torques.empty() && std::any_of(options.scenarios.begin(), options.scenarios.end(), is_folder));
+}
+
 std::filesystem::path folderOf(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
   if (options.out == "-")
     throw UsageError("--out -: expected a folder, not standard output; --json puts the summary there");
-  const std::filesystem::path by_name = members.size() > 1 ? "suite" : members.front().name;
+  const std::filesystem::path by_name = isSuite(options, members) ? "suite" : members.front().name;
   const std::filesystem::path dir = options.out.empty() ? "results" / by_name : std::filesystem::path(options.out);
   refuseFile(dir.string());
   return dir;
@@ -190,17 +200,17 @@ int validateAll(const ValidateOptions& options) {
   if (const auto input = report::replacedInput(inputsOf(options, members), dir); !input.empty())
     throw UsageError(fmt::format("--out {}: results would replace {}, which is read, expected another folder",
                                  dir.string(), input.string()));
-  return members.size() > 1 ? validateSuite(members, options, dir)
-                            : validateOne(*members.front().scenario, options, dir);
+  return isSuite(options, members) ? validateSuite(members, options, dir)
+                                   : validateOne(*members.front().scenario, options, dir);
 }
 
 void addOutputOptions(CLI::App& verb, ValidateOptions& options) {
   verb.add_option("--out", options.out,
-                  "Folder of the results; default results/NAME, for several scenarios results/suite");
-  CLI::Option* json = verb.add_flag(
-      "--json", options.json,
-      "Prints only the summary on standard output, as in summary.json; for several scenarios an array of them.\n"
-      "A scenario in error then has scenario, verdict \"error\" and error");
+                  "Folder of the results; default results/NAME, for several scenarios or a folder results/suite");
+  CLI::Option* json = verb.add_flag("--json", options.json,
+                                    "Prints only the summary on standard output, as in summary.json; for several "
+                                    "scenarios or a folder an array of them.\n"
+                                    "A scenario in error then has scenario, verdict \"error\" and error");
   verb.add_flag("--quiet", options.quiet,
                 "Prints one line for each scenario: the verdict, and the reason unless it is a pass; no progress")
       ->excludes(json);
@@ -257,9 +267,9 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--atol", options->atol, "The same in N m, or N; the sum of both counts")->check(finitePositive());
   verb->add_flag("--any-tolerance", options->any_tolerance, "Accepts even a tolerance at which zeros would pass");
   verb->footer(
-      "Several scenarios: each gets a folder under DIR, and all share index.html and junit.xml. A scenario that "
-      "cannot\n"
-      "be read, is out of reach or is singular counts as an error, and the others are judged. Nothing is written\n"
+      "Several scenarios: each gets a folder under DIR, and all share index.html and junit.xml; so does a folder's\n"
+      "only one. A scenario that cannot be read, is out of reach or is singular counts as an error, and the others\n"
+      "are judged. Nothing is written\n"
       "(exit 2) if all are in error, if two share a name, or if any is in error with --strict.\n"
       "Exit code: 1 if any failed or was in error, else 3 if any was inconclusive, else 0.");
   verb->callback([options, &run] { run = [options] { return validateAll(*options); }; });

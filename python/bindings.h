@@ -11,6 +11,13 @@ namespace ursula::python {
 /// Returns the message with options of the command line as arguments: "any_tolerance" for "--any-tolerance".
 std::string inPython(const std::string& message);
 
+/// Returns the message about a table of arrays by index: "t[1] = 2" for "torques:3: error: t_s = 2", whose header
+/// counts as a line.
+std::string byIndex(const std::string& message, const std::string& instants);
+
+/// The number as Python prints it.
+inline std::string shown(double number) { return pybind11::repr(pybind11::float_(number)); }
+
 void addComparison(pybind11::module_& module);
 
 using ScenarioClass = pybind11::class_<ScenarioWithSolver, std::shared_ptr<ScenarioWithSolver>>;

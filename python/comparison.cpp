@@ -26,6 +26,7 @@ namespace {
 
 /// Reads the columns of a dict, each (N,); like those of a file, they may contain NaN.
 TimeSeries seriesIn(const py::dict& columns, const std::string& what) {
+  if (!columns.contains("t_s")) throw py::value_error(what + ": no 't_s', expected the instants, s");
   CsvTable out;
   out.file = what;
   for (const auto& [key, values] : columns) {
@@ -40,8 +41,12 @@ TimeSeries seriesIn(const py::dict& columns, const std::string& what) {
     out.columns.emplace_back(column.data(), column.data() + column.size());
   }
   const std::size_t rows = out.columns.empty() ? 0 : out.columns[0].size();
-  for (std::size_t k = 0; k < rows; ++k) out.lines.push_back(static_cast<int>(k) + 1);
-  return historyOf(out);
+  for (std::size_t k = 0; k < rows; ++k) out.lines.push_back(static_cast<int>(k) + 2);  // as below a header
+  try {
+    return historyOf(out);
+  } catch (const CsvError& error) {
+    throw py::value_error(byIndex(error.what(), what + "['t_s']"));
+  }
 }
 
 TimeSeries historyFrom(const py::object& given, const std::string& what) {
@@ -56,14 +61,16 @@ Comparison compared(const py::object& reference, const py::object& test, double 
                     std::optional<bool> interpolate, const std::vector<std::string>& columns) {
   for (const auto& [name, value] : {std::pair("tolerance", tolerance), {"time_tolerance", time_tolerance}})
     if (!(value >= 0 && std::isfinite(value)))
-      throw py::value_error(std::string(name) + " is " + std::to_string(value) + ", expected 0 or a positive number");
+      throw py::value_error(std::string(name) + " is " + shown(value) + ", expected 0 or a positive number");
   try {
     const TimeSeries before = historyFrom(reference, "reference"), after = historyFrom(test, "test");
     const py::gil_scoped_release unlocked;
     return compare(before, after, {tolerance, time_tolerance, interpolate, columns});
   } catch (const py::builtin_exception&) {
     throw;
-  } catch (const std::runtime_error& error) {  // from a file, or from a column's name
+  } catch (const py::error_already_set&) {
+    throw;
+  } catch (const std::exception& error) {  // from a file, or from a column's name
     throw py::value_error(inPython(error.what()));
   }
 }

@@ -5,6 +5,8 @@
 #include <pybind11/stl.h>
 #include <ursula/identify.h>
 
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -63,13 +65,15 @@ py::tuple ofArrays(const ScenarioWithSolver& self, const std::vector<double>& t,
       self, [&] { return measuredLogOf(t, motion, efforts, *self.scenario.manipulator); }, prior);
 }
 
-std::string excited(const ScenarioWithSolver& self, double period, int harmonics, int tries, std::uint64_t seed) {
+std::string excited(const ScenarioWithSolver& self, double period, int harmonics, int tries, std::int64_t seed) {
+  if (!(period >= 0 && std::isfinite(period)) || harmonics < 1 || tries < 1 || seed < 0)
+    throw py::value_error("excite: expected a period and a seed of 0 or more, harmonics and tries of 1 or more");
   const py::gil_scoped_release unlocked;
   ExciteOptions options;
   options.period = period;
   options.harmonics = harmonics;
   options.tries = tries;
-  options.seed = seed;
+  options.seed = static_cast<std::uint64_t>(seed);
   return excite(self.scenario, options).csv;
 }
 

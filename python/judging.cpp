@@ -19,7 +19,7 @@ namespace ursula::python {
 namespace py = pybind11;
 namespace {
 
-std::string atInstant(const Motion<double>& motion) { return " at t = " + std::to_string(motion.t) + " s"; }
+std::string atInstant(const Motion<double>& motion) { return " at t = " + shown(motion.t) + " s"; }
 
 std::string typeOf(const py::object& value) { return py::str(py::type::of(value).attr("__name__")); }
 
@@ -39,7 +39,7 @@ std::vector<Vector6d> torquesOf(const py::object& answer, const std::vector<Moti
     for (int i = 0; i < motor_count; ++i)
       if (!std::isfinite(out.back()(i)))
         throw py::value_error("the solver's effort " + std::to_string(i + 1) + atInstant(motions[k]) + " is " +
-                              std::to_string(out.back()(i)) + ", expected a finite number");
+                              shown(out.back()(i)) + ", expected a finite number");
   }
   return out;
 }
@@ -83,7 +83,7 @@ void refuseUnlessFunction(const py::object& solver) {
   const bool is_text = py::isinstance<py::str>(solver);
   throw py::type_error("validate: solver is " + (is_text ? std::string(py::repr(solver)) + " " : std::string()) +
                        "of type " + typeOf(solver) + ", expected a function of a Motion" +
-                       (is_text ? "; `ursula validate --solver` takes a command" : ""));
+                       (is_text ? "; a command is for `ursula validate` in a terminal" : ""));
 }
 
 /// Validates a user's function.
@@ -136,19 +136,20 @@ TorqueFile torquesAt(const ScenarioWithSolver& given, const py::object& torques,
   if (rows.shape(0) != instants.shape(0))
     throw py::value_error("torques: " + std::to_string(rows.shape(0)) + " rows, expected one for each of the " +
                           std::to_string(count) + " instants t");
+  if (count == 0) throw py::value_error("torques: no rows, expected at least one");
   GivenTorques table{name, {instants.data(), instants.data() + count}, {}};
   for (std::size_t k = 0; k < count; ++k)
     table.torques.emplace_back(Eigen::Map<const Vector6d>(rows.data() + motor_count * k));
   try {
     return within(torqueFileOf(table, given.scenario.manipulator->motors()), given.scenario.trajectory->duration());
   } catch (const CsvError& error) {
-    throw py::value_error(inPython(error.what()));
+    throw py::value_error(byIndex(error.what(), "t"));
   }
 }
 
 void requirePositive(const char* name, std::optional<double> value) {
   if (value && !(*value > 0 && std::isfinite(*value)))
-    throw py::value_error(std::string(name) + " is " + std::to_string(*value) + ", expected a positive number");
+    throw py::value_error(std::string(name) + " is " + shown(*value) + ", expected a positive number");
 }
 
 void addJudging(py::module_& module) {

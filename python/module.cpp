@@ -55,20 +55,36 @@ void addErrors(py::module_& module) {
   });
 }
 
+template <class Words>
+std::string eachReplaced(const std::string& text, const std::regex& what, Words&& words) {
+  std::string out;
+  auto at = text.begin();
+  for (std::sregex_iterator each(text.begin(), text.end(), what), none; each != none; ++each) {
+    out.append(at, text.begin() + each->position());
+    out += words(*each);
+    at = text.begin() + each->position() + each->length();
+  }
+  return out.append(at, text.end());
+}
+
 }  // namespace
 
 std::string ursula::python::inPython(const std::string& message) {
   static const std::regex option("--[a-z]+(-[a-z]+)*");
-  std::string out;
-  auto at = message.begin();
-  for (std::sregex_iterator each(message.begin(), message.end(), option), none; each != none; ++each) {
-    out.append(at, message.begin() + each->position());
-    std::string name = each->str().substr(2);
+  return eachReplaced(message, option, [](const std::smatch& found) {
+    std::string name = found.str().substr(2);
     std::replace(name.begin(), name.end(), '-', '_');
-    out += name;
-    at = message.begin() + each->position() + each->length();
-  }
-  return out.append(at, message.end());
+    return name;
+  });
+}
+
+std::string ursula::python::byIndex(const std::string& message, const std::string& instants) {
+  static const std::regex line("(?:^[^:]*:(\\d+): error: t_s)|(?:(?:of )?line (\\d+))");
+  return eachReplaced(inPython(message), line, [&instants](const std::smatch& found) {
+    const std::string number = found[1].matched ? found[1] : found[2];
+    return (found.str().rfind("of ", 0) == 0 ? "of " : "") + instants + "[" + std::to_string(std::stoi(number) - 2) +
+           "]";
+  });
 }
 
 PYBIND11_MODULE(_ursula, module) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "python/archive.h"
+#include "python/bindings.h"
 #include "python/words.h"
 
 namespace ursula::python {
@@ -80,7 +81,7 @@ auto member(Member Motion<double>::*which, std::vector<py::ssize_t> shape, std::
 Matrix3d orientationOf(const double* q, std::size_t row) {
   const Eigen::Quaterniond given(q[0], q[1], q[2], q[3]);
   if (!(std::abs(given.norm() - 1) <= 1e-3))
-    throw py::value_error("q[" + std::to_string(row) + "]: length " + std::to_string(given.norm()) +
+    throw py::value_error("q[" + std::to_string(row) + "]: length " + shown(given.norm()) +
                           ", expected a unit quaternion [w, x, y, z]");
   return given.normalized().toRotationMatrix();
 }
@@ -135,7 +136,11 @@ py::array numbersIn(const py::object& values, const std::string& what) {
   if (isMasked(values)) throw py::value_error(what + " (found a masked array)");
   const py::array out(values);
   if (std::string("iuf").find(out.dtype().kind()) == std::string::npos)
-    throw py::value_error(what + " (found " + std::string(py::str(out.dtype().attr("name"))) + ")");
+    throw py::value_error(what + " (found " +
+                          (out.dtype().kind() == 'U'   ? "text"
+                           : out.dtype().kind() == 'O' ? "objects"
+                                                       : std::string(py::str(out.dtype().attr("name")))) +
+                          ")");
   return out;
 }
 

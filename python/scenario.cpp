@@ -32,7 +32,6 @@ void refuseOutside(const py::array_t<double>& instants, double duration) {
   const double *first = instants.data(), *last = first + instants.size(), slack = rounding * duration;
   const double* found = std::find_if(first, last, [&](double t) { return t < -slack || t > duration + slack; });
   if (found == last) return;
-  const auto shown = [](double number) { return std::string(py::repr(py::float_(number))); };
   throw py::value_error("t[" + std::to_string(found - first) + "] = " + shown(*found) +
                         " s is outside of the motion, expected 0 to " + shown(duration) + " s");
 }
@@ -253,7 +252,15 @@ void addScenario(py::module_& module) {
   addPose(module);
   py::class_<ScenarioWithSolver, std::shared_ptr<ScenarioWithSolver>> scenario(module, "Scenario", words::scenario);
   addCopies(scenario);
+  const auto content = [](const ScenarioWithSolver& self) { return scenarioJson(self.scenario); };
   scenario.def(py::pickle(&textOf, &scenarioOf))
+      .def(
+          "__eq__",
+          [content](const ScenarioWithSolver& self, const ScenarioWithSolver& other) {
+            return content(self) == content(other);
+          },
+          py::is_operator())
+      .def("__hash__", [content](const ScenarioWithSolver& self) { return std::hash<std::string>()(content(self)); })
       .def_property_readonly(
           "name", [](const ScenarioWithSolver& self) { return self.scenario.name; }, "The name that the file gives.")
       .def_property_readonly(

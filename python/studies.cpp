@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <regex>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -71,8 +72,14 @@ std::vector<std::string> checked(const ScenarioWithSolver& self) {
 GridAxis axisOf(const char* name, const py::object& given) {
   if (given.is_none()) return {};
   std::string text;
-  const bool is_number = py::isinstance<py::float_>(given) || py::isinstance<py::int_>(given);
-  const py::tuple parts = is_number ? py::make_tuple(given) : py::tuple(given);
+  const auto isNumber = [](const py::handle& each) {
+    return PyNumber_Check(each.ptr()) != 0 && !py::hasattr(each, "__len__");
+  };
+  const bool is_sequence = py::isinstance<py::sequence>(given) && !py::isinstance<py::str>(given);
+  const py::tuple parts = is_sequence ? py::tuple(given) : py::make_tuple(given);
+  if ((is_sequence && parts.size() != 3) || !std::all_of(parts.begin(), parts.end(), isNumber))
+    throw py::value_error(std::string(name) + " is " + std::string(py::repr(given)) +
+                          ", expected a number or (from, to, count)");
   for (const py::handle part : parts) text += (text.empty() ? "" : ",") + std::string(py::str(part));
   return gridAxis(name, text);
 }
@@ -110,7 +117,7 @@ py::dict mapped(const ScenarioWithSolver& self, const py::object& x, const py::o
     return columnsOf(mapBlocks(self.scenario, grid, nullptr),
                      jobs > 0 ? jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
   } catch (const GridError& error) {
-    throw py::value_error(inPython(error.what()));
+    throw py::value_error(std::regex_replace(error.what(), std::regex("FROM,TO,COUNT"), "(from, to, count)"));
   }
 }
 

@@ -113,7 +113,7 @@ std::string reportHtml(const ValidationResult& result, Place place) {
                                   {"detail", inWords(detailHtml(result))},
                                   {"machine", picture == nullptr ? "" : escaped(machineLine(*picture))},
                                   {"figures", inWords(keyFiguresHtml(result))},
-                                  {"reason", escaped(reason(result.verdict, result.checks))},
+                                  {"reason", escaped(powersInPrint(reason(result.verdict, result.checks)))},
                                   {"sources", inWords(sources(charts))},
                                   {"stage", stage(picture.get())},
                                   {"suite", place == Place::in_suite ? suite_link : ""},

@@ -8,6 +8,7 @@
 
 #include "report/json_text.h"
 #include "report/picture.h"
+#include "report/plot_builder.h"
 #include "report/plots.h"
 #include "report/singular.h"
 
@@ -130,7 +131,11 @@ std::string weakJson(const Picture& picture) {
 
 }  // namespace
 
-std::string machineJson(const Picture& picture, const TimeSeries& series) {
+std::string machineJson(const Picture& picture, const ValidationResult& result) {
+  const TimeSeries& series = result.timeseries;
+  std::vector<double> wrong;  // legs, 0-based
+  for (const MotorDeviation& motor : motorsOff(result))
+    if (!motor.right) wrong.push_back(motorsOf(result)[static_cast<std::size_t>(motor.motor)].leg);
   const AtInstants at(series, picture.t);
   std::vector<std::string> efforts;
   for (const Indexed& effort : indexed(series, "tau"))
@@ -139,10 +144,10 @@ std::string machineJson(const Picture& picture, const TimeSeries& series) {
   const auto add_leg = [&table](const Picture::Leg& leg, std::string& out) { out += legJson(leg, table); };
   const std::string legs = jsonList(picture.legs, add_leg);
   return fmt::format(
-      R"({{"t":{},"tracks":{},"legs":{},"p":{},"q":{},"hold":{},"error":{},"efforts":{},"onPlatform":{},"onBase":{},"weak":{}}})",
+      R"({{"t":{},"tracks":{},"legs":{},"p":{},"q":{},"hold":{},"error":{},"efforts":{},"onPlatform":{},"onBase":{},"weak":{},"wrong":{}}})",
       jsonNumbers(picture.t), table.json(), legs, track(picture.p), track(picture.q), track(picture.platform_points),
       track(poseErrors(at)), track(at.vectors(efforts)), forces(at, "fB", picture.legs.size()),
-      forces(at, "fA", picture.legs.size()), weakJson(picture));
+      forces(at, "fA", picture.legs.size()), weakJson(picture), jsonNumbers(wrong));
 }
 
 }  // namespace ursula::report

@@ -61,6 +61,8 @@ void addShares(const ValidationResult& result, std::vector<MotorDeviation>& moto
       for (const double each : *result.timeseries.find(fmt::format("simbody_tau_{}_{}", other.motor + 1, other.unit)))
         if (std::isfinite(each)) largest = std::max(largest, std::abs(each));
     }
+    const auto& whole = result.deviation;  // a file may cover a part of the motion
+    if (whole && prettyUnit(whole->unit) == prettyUnit(motor.unit)) largest = std::max(largest, whole->largest_effort);
     if (largest > 0) motor.share = motor.largest / largest;
   }
 }
@@ -70,7 +72,7 @@ std::string shareOfLargest(double share) { return share < 1e-6 ? plainNumber(sha
 /// Returns "1.003 × expected" or "expected + 3 N"; empty if no single number explains the deviation.
 std::string patternText(const MotorDeviation& motor) {
   if (motor.right) return "";
-  if (motor.factor) return fmt::format("{:.6g} × expected", *motor.factor);
+  if (motor.factor) return factorText(*motor.factor) + " × expected";
   if (!motor.offset) return "";
   return fmt::format("expected {} {:.6g} {}", *motor.offset < 0 ? "−" : "+", std::abs(*motor.offset),
                      prettyUnit(motor.unit));
@@ -87,6 +89,12 @@ std::string motorRow(const MotorDeviation& motor, bool patterns) {
 }
 
 }  // namespace
+
+std::string factorText(double factor) {
+  const double off = factor - 1;
+  if (off == 0 || std::abs(off) >= 1e-4) return fmt::format("{:.6g}", factor);
+  return fmt::format("(1 {} {})", off < 0 ? "−" : "+", plainNumber(std::abs(off)));
+}
 
 std::string motorsTable(const ValidationResult& result) {
   const std::vector<MotorDeviation> motors = motorsOff(result);

@@ -62,8 +62,7 @@ std::string chartData(const std::string& title, const std::vector<Plot>& plots) 
 
 std::string pageData(const ValidationResult& result, const Picture* picture, const std::vector<Plot>& plots) {
   return fmt::format(R"({{"scenario":{},"events":{},"machine":{},"plots":{}}})", jsonText(result.scenario),
-                     eventsJson(result), picture != nullptr ? machineJson(*picture, result.timeseries) : "null",
-                     plotsJson(plots));
+                     eventsJson(result), picture != nullptr ? machineJson(*picture, result) : "null", plotsJson(plots));
 }
 
 }  // namespace ursula::report

@@ -42,6 +42,9 @@ class TimePlots {
   std::vector<double> t_;
 };
 
+/// The validated machine's motors; otherwise the paper's.
+Motors motorsOf(const ValidationResult& result);
+
 /// Adds the charts of the time series. Its efforts are those of `motors`; `allowed` is a user's tolerance in their
 /// unit, 0 if there is none.
 void addSeriesPlots(const TimeSeries& series, const Motors& motors, double allowed, std::vector<Plot>& plots);

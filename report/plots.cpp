@@ -33,14 +33,6 @@ struct Span {
   bool isWide() const { return positive && most > least && std::log10(most / least) > decades_for_log; }
 };
 
-/// The validated machine's motors; otherwise the paper's.
-Motors motorsOf(const ValidationResult& result) {
-  if (result.asked && result.asked->manipulator) return result.asked->manipulator->motors();
-  Motors out;
-  for (int k = 0; k < motor_count; ++k) out[static_cast<std::size_t>(k)].leg = k;
-  return out;
-}
-
 /// "rounding (m)" → "rounding", "m".
 Line lineOf(const std::string& column, int color) {
   const std::size_t open = column.rfind(" (");
@@ -109,6 +101,13 @@ void sayEfforts(const std::string& noun, Plot& plot) {
 
 }  // namespace
 
+Motors motorsOf(const ValidationResult& result) {
+  if (result.asked && result.asked->manipulator) return result.asked->manipulator->motors();
+  Motors out;
+  for (int k = 0; k < motor_count; ++k) out[static_cast<std::size_t>(k)].leg = k;
+  return out;
+}
+
 std::vector<Plot> plots(const ValidationResult& result) {
   std::vector<Plot> plots;
   for (const auto& [title, curve] : result.curves) {
@@ -149,6 +148,7 @@ std::string inWords(const Plot& plot) {
   std::size_t row = 0;
   for (const Line& line : plot.lines) {
     if (line.stroke == Stroke::limit && plot.lines.size() > 1) continue;
+    if (plot.group == PlotGroup::sources && line.stroke != Stroke::ghost) continue;  // parts may cancel in the whole
     for (std::size_t i = 0; i < line.values.size() && isDrawable(plot, line); ++i) {
       const double magnitude = std::abs(line.values[i]);
       if (!std::isfinite(magnitude)) continue;
@@ -159,7 +159,7 @@ std::string inWords(const Plot& plot) {
     }
   }
   if (largest == nullptr) return "Nothing to draw: every value is zero or not finite.";
-  const std::string unit = largest->unit.empty() ? "" : " " + largest->unit;
+  const std::string unit = largest->unit.empty() || largest->unit == "1" ? "" : " " + largest->unit;
   const std::string x = number(plot.x[row], 4);
   return fmt::format("Largest: {} = {}{} at {}.", largest->label, number(largest->values[row], 4), unit,
                      plot.over_time ? "t = " + x + " s" : plot.x_label + " = " + x);

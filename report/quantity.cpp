@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <regex>
 #include <utility>
 
 #include "base/leading_number.h"
@@ -72,13 +73,20 @@ std::string plainNumber(double value, int digits) {
   if (value == 0) return "0";
   const double size = std::abs(value);
   if (size >= 1e-3 && size < 99999.5) return rounded(value, digits);
-  const std::string text = fmt::format("{:.{}e}", value, digits - 1);
-  const std::size_t e = text.find('e');
-  std::string mantissa = text.substr(0, e);
-  if (mantissa.find('.') != std::string::npos) mantissa.erase(mantissa.find_last_not_of('0') + 1);
-  if (mantissa.back() == '.') mantissa.pop_back();
-  const std::string power = "10" + superscript(std::stoi(text.substr(e + 1)));
-  return mantissa == "1" ? power : mantissa + joined + "×" + joined + power;
+  return powersInPrint(fmt::format("{:.{}e}", value, digits - 1));
+}
+
+std::string powersInPrint(const std::string& text) {
+  static const std::regex power("(\\d+)(?:\\.0+|(\\.\\d*[1-9])0*)?e([+-]?\\d+)");
+  std::string out;
+  std::ptrdiff_t from = 0;
+  for (std::sregex_iterator at(text.begin(), text.end(), power), none; at != none; ++at) {
+    const std::string mantissa = (*at)[1].str() + (*at)[2].str();
+    out += text.substr(static_cast<std::size_t>(from), static_cast<std::size_t>(at->position() - from));
+    out += (mantissa == "1" ? "" : mantissa + joined + "×" + joined) + "10" + superscript(std::stoi((*at)[3]));
+    from = at->position() + at->length();
+  }
+  return out + text.substr(static_cast<std::size_t>(from));
 }
 
 std::string percentText(double share) {

@@ -14,6 +14,9 @@ std::string quantity(double value, const std::string& unit, int digits = 3);
 /// 3.2e-15 → "3.2 × 10⁻¹⁵"; from 0.001 to 99999 plain.
 std::string plainNumber(double value, int digits = 3);
 
+/// The text with every 2.75e+13 as 2.75 × 10¹³.
+std::string powersInPrint(const std::string& text);
+
 /// 0.0314 → "3.1 %", 0.31 → "31 %".
 std::string percentText(double share);
 

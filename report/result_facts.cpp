@@ -68,7 +68,7 @@ std::string drives(const ResultFacts& facts) {
   if (std::isnan(facts.replay)) return facts.subject + " hold";
   const std::string windows = facts.windows > 1 ? fmt::format(", in {} windows", facts.windows) : "";
   return fmt::format("{} drive Simbody's loop along {} to {} in {}{}", facts.subject, facts.motion,
-                     quantity(facts.replay, "m", 2), quantity(facts.duration, "s"), windows);
+                     quantity(facts.replay, "m"), quantity(facts.duration, "s"), windows);
 }
 
 std::string agrees(const ResultFacts& facts) {
@@ -82,7 +82,8 @@ std::string agrees(const ResultFacts& facts) {
 
 /// Returns ". Likely cause: platform mass 303 ± 1 kg". A share that lacks only rounding becomes "all of it"; a text
 /// without a cause is not called likely.
-std::string inPrint(std::string cause) {
+std::string inPrint(const std::string& found) {
+  std::string cause = powersInPrint(found);
   for (const auto& [from, to] :
        {std::pair<std::string, std::string>{" +- ", " ± "},
         {", which explains more than 99.9999 % of the deviation", ", which explains all of it"}})
@@ -195,8 +196,8 @@ std::vector<KeyFigure> keyFigures(const ValidationResult& result) {
       {"checks passed", fmt::format("{} of {}", countOf(result, Verdict::pass), applicable),
        fmt::format("{} failed, {} undecided", countOf(result, Verdict::fail), countOf(result, Verdict::inconclusive))});
   if (!std::isnan(facts.replay))
-    out.push_back({"off the path", quantity(facts.replay, "m", 2),
-                   std::isnan(facts.replay_limit) ? "" : "limit " + quantity(facts.replay_limit, "m", 2)});
+    out.push_back({"off the path", quantity(facts.replay, "m"),
+                   std::isnan(facts.replay_limit) ? "" : "limit " + quantity(facts.replay_limit, "m")});
   if (!std::isnan(facts.agreement))
     out.push_back({"largest effort deviation",
                    facts.agreement >= 1e-6 ? percentText(facts.agreement) : plainNumber(facts.agreement, 2),

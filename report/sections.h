@@ -26,7 +26,7 @@ std::string machineLine(const Picture& picture);
 
 /// Returns as JSON the machine's points and directions at the picture's instants, with the errors, efforts and
 /// reactions of `series` there.
-std::string machineJson(const Picture& picture, const TimeSeries& series);
+std::string machineJson(const Picture& picture, const ValidationResult& result);
 
 /// Returns the data of the page's script as JSON for a <script> block: charts, the machine along its motion, events. It
 /// is thinned to visible detail; numbers have six digits. `picture` may be null.
@@ -56,6 +56,9 @@ struct MotorDeviation {
 /// Returns the deviation of every motor from the columns of the subject's and Simbody's efforts. Empty if no check says
 /// that efforts are wrong, or if the columns are missing.
 std::vector<MotorDeviation> motorsOff(const ValidationResult& result);
+
+/// "1.003", or "(1 + 10⁻⁶)" where few digits would hide the difference.
+std::string factorText(double factor);
 
 /// Returns a row for each motor: its deviation, the instant, and the one number that would correct it. Empty if
 /// motorsOff is.

@@ -54,10 +54,13 @@ std::string histogram(const std::vector<double>& values, double largest) {
       plainNumber(largest, 2), bars);
 }
 
+/// `judged` is the same error at the instants that a check judges, if it does; its maximum is the one shown.
 std::string row(const std::string& what, const std::string& unit, const std::vector<double>& t,
-                const std::vector<double>& values) {
-  const Statistics s = statisticsOf(t, values);
+                const std::vector<double>& values, const Check* judged = nullptr) {
+  Statistics s = statisticsOf(t, values);
   if (s.count == 0) return "";
+  if (judged != nullptr && judged->largest.value > s.largest)
+    s.largest = judged->largest.value, s.at = judged->largest.t;
   return fmt::format(
       "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
       "class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td></tr>\n",
@@ -72,14 +75,19 @@ std::string statisticsTable(const ValidationResult& result) {
   const std::vector<double>* t = series.find("t_s");
   if (t == nullptr) return "";
   std::string rows;
-  const std::array<std::array<const char*, 3>, 6> columns{{{"error_p_m", "Replay, position", "m"},
-                                                           {"error_q_rad", "Replay, orientation", "rad"},
-                                                           {"error_acceleration_m_s2", "Acceleration", "m/s^2"},
-                                                           {"closure_p_m", "Gap of the loops", "m"},
-                                                           {"closure_v_m_s", "Gap of the loops, rate", "m/s"},
-                                                           {"error_energy_J", "Energy less work", "J"}}};
-  for (const auto& [column, what, unit] : columns)
-    if (const std::vector<double>* values = series.find(column)) rows += row(what, unit, *t, *values);
+  const std::array<std::array<const char*, 4>, 6> columns{
+      {{"error_p_m", "Replay, position", "m", "replay.position"},
+       {"error_q_rad", "Replay, orientation", "rad", "replay.orientation"},
+       {"error_acceleration_m_s2", "Acceleration", "m/s^2", ""},
+       {"closure_p_m", "Gap of the loops", "m", ""},
+       {"closure_v_m_s", "Gap of the loops, rate", "m/s", ""},
+       {"error_energy_J", "Energy less work", "J", ""}}};
+  for (const auto& [column, what, unit, check] : columns) {
+    const auto judged = std::find_if(result.checks.begin(), result.checks.end(),
+                                     [name = check](const Check& each) { return each.name == name; });
+    if (const std::vector<double>* values = series.find(column))
+      rows += row(what, unit, *t, *values, judged == result.checks.end() ? nullptr : &*judged);
+  }
   const std::vector<Indexed> efforts = indexed(series, "tau"), expected = indexed(series, "simbody_tau");
   for (std::size_t k = 0; k < efforts.size() && k < expected.size(); ++k) {
     std::vector<double> off;
@@ -89,7 +97,8 @@ std::string statisticsTable(const ValidationResult& result) {
   if (rows.empty()) return "";
   return fmt::format(
       "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"Error statistics\"><table>\n<caption>Sizes of "
-      "the errors over the instants of the time series. Histograms: half decades, the last ends at the "
+      "the errors over the instants of the time series, a replay's maximum over its steps. Histograms: half decades, "
+      "the last ends at the "
       "maximum.</caption>\n<thead><tr><th scope=\"col\">Error</th><th scope=\"col\" class=\"number\">Maximum</th><th "
       "scope=\"col\" class=\"number\">at</th><th scope=\"col\" class=\"number\">RMS</th><th scope=\"col\" "
       "class=\"number\">Last</th><th scope=\"col\">Histogram</th></tr></thead>\n<tbody>\n{}</tbody></table></div>",

@@ -129,24 +129,20 @@ std::string notApplicableText(const std::vector<Check>& checks) {
   return out.empty() ? "" : "\n" + out;
 }
 
-std::string optionalText(const std::optional<double>& value, const std::string& unit) {
-  return value ? fmt::format("{:.6g}{}", *value, unit) : "";
-}
-
 /// The deviation of each motor as a table, because six of them in one line are unreadable.
 std::string motorsText(const std::vector<MotorDeviation>& motors) {
   std::vector<std::vector<std::string>> rows = {{"motor", "off by", "at t", "factor", "offset"}};
   for (const MotorDeviation& motor : motors)
     rows.push_back({std::to_string(motor.motor + 1), fmt::format("{:.3g} {}", motor.largest, prettyUnit(motor.unit)),
-                    fmt::format("{:.4g} s", motor.t), optionalText(motor.factor, ""),
-                    optionalText(motor.offset, " " + prettyUnit(motor.unit))});
+                    fmt::format("{:.4g} s", motor.t), motor.factor ? factorText(*motor.factor) : "",
+                    motor.offset ? fmt::format("{:.6g} {}", *motor.offset, prettyUnit(motor.unit)) : ""});
   std::string out;
   for (const std::string& line : alignedRows(rows, std::vector<Align>(5, Align::right))) out += "  " + line + "\n";
   return out;
 }
 
 /// The sources of the replay's error, one per line.
-std::string replayText(const ReplayError& found) {
+std::string replayText(const ReplayError& found, const std::string& noun) {
   if (!found.measured)
     return "dominant error: " + found.dominant + (found.dominant == "model" ? ", the torques\n" : "\n");
   std::string out = "dominant error: " + found.dominant + "\n";
@@ -155,7 +151,9 @@ std::string replayText(const ReplayError& found) {
                                       {"integration", found.integration},
                                       {"gaps", found.closure},
                                       {"torques", found.model}})
-    rows.push_back({source, fmt::format("{:.3g} m", share.error), fmt::format("± {:.2g} m", share.uncertainty)});
+    rows.push_back({inEffortWords(noun, source), fmt::format("{:.3g} m", share.error),
+                    fmt::format("± {:.2g} m", share.uncertainty)});
+  rows.push_back({"the rest", fmt::format("{:.3g} m", found.unexplained), ""});
   out +=
       fmt::format("  the replay is off by {:.3g} m at t = {:.6g} s, where deviations have grown {:.4g}-fold; of it\n",
                   found.observed, found.t, found.amplification);
@@ -172,7 +170,7 @@ bool replayIsOpen(const std::vector<Check>& checks) {
 std::string reasonsText(const ValidationResult& result) {
   std::string out;
   if (result.replay_error && replayIsOpen(result.checks))
-    out += inEffortWords(effortNoun(result), replayText(*result.replay_error));
+    out += inEffortWords(effortNoun(result), replayText(*result.replay_error, effortNoun(result)));
   if (const std::vector<MotorDeviation> motors = motorsOff(result); !motors.empty())
     out += effortNoun(result) + "s against the expected ones:\n" + motorsText(motors);
   if (result.likely_cause) out += "likely cause: " + result.likely_cause->cause + "\n";

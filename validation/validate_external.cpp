@@ -73,7 +73,7 @@ void addFacts(const Evidence& evidence, const ErrorBudget& budget, ValidationRes
   addCurves(evidence.samples, evidence.windows, result);
   if (!evidence.not_replayed.empty()) result.findings.emplace_back("replay", "none: " + evidence.not_replayed);
   if (!evidence.spline.empty()) result.findings.emplace_back("spline", evidence.spline);
-  addBudget(budget, result, evidence.units());
+  addBudget(budget, result, evidence.units(), between_samples);
 }
 
 }  // namespace

@@ -9,6 +9,11 @@ NumPy in and out; rows are instants; SI units; frames: B is the base's, M the pl
     print(r.verdict, r.reason)
 """
 
+try:
+    import numpy as _numpy  # noqa: F401
+except ImportError as _error:
+    raise ImportError("ursula needs NumPy: pip install numpy, or apt install python3-numpy") from _error
+
 from . import _errors, _notebook
 from ._identify import Identified, identify
 from ._ursula import (

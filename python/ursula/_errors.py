@@ -5,9 +5,10 @@ import inspect
 import os
 import re
 
-_KINDS = {"float": "a number", "int": "an integer", "str": "a string", "bool": "True or False", "dict": "a dict"}
+_KINDS = {"float": "a number", "int": "an integer", "str": "a string", "bool": "True or False", "dict": "a dict", "slice": "a slice"}
 _FITS = {"float": lambda x: hasattr(x, "__float__") or hasattr(x, "__index__"), "int": lambda x: hasattr(x, "__index__"),
          "str": lambda x: isinstance(x, str), "bool": lambda x: isinstance(x, bool), "dict": lambda x: isinstance(x, dict)}
+_FITS["slice"] = lambda x: isinstance(x, slice)
 _PATH = re.compile(r"PathLike|\bPath\b")
 
 
@@ -56,7 +57,9 @@ def _shown(value):
 def _words(called, doc, arguments, named):
     """Says what is wrong with a call that the binding refused."""
     if "Overloaded function." in doc:
-        return f"{called}: {_shown(arguments[-1])} is none of what it takes"
+        signatures = [_signature(line[line.index(". ") + 2:]) for line in doc.splitlines() if re.match(r"\d+\. ", line)]
+        kinds = [_expected([*each.parameters.values()][-1].annotation) for each in signatures]
+        return f"{called}: {_shown(arguments[-1])}, expected {' or '.join(kind[0] for kind in kinds if kind)}"
     try:
         signature = _signature(doc.splitlines()[0])
         bound = signature.bind(*arguments, **named)
@@ -84,9 +87,18 @@ def in_words(function, called):
     return wrapped
 
 
+def _unmade(name):
+    def refuse(self, *arguments, **named):
+        raise TypeError(f"{name}: results of functions are such objects, no call makes one; help(ursula.{name}) says more")
+
+    return refuse
+
+
 def put_in_words(classes):
-    """Wraps every method of these classes that takes arguments."""
+    """Wraps every method of these classes that takes arguments, and refuses calls of those without a constructor."""
     for each in classes:
+        if "__init__" not in vars(each) and not issubclass(each, Exception):
+            each.__init__ = _unmade(each.__name__)
         for name, method in vars(each).copy().items():
             takes = callable(method) and (method.__doc__ or "").startswith(name + "(")
             if takes and name not in ("__setstate__", "__getstate__", "__reduce__"):

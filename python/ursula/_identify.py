@@ -67,4 +67,5 @@ def _numbers(name, x):
             return np.ascontiguousarray(x, dtype=float)
     except (TypeError, ValueError):
         pass
-    raise TypeError(f"identify: {name} is of type {type(x).__name__}, expected an array of numbers, or measured a file")
+    given = "missing" if x is None else f"of type {type(x).__name__}"
+    raise TypeError(f"identify: {name} is {given}, expected an array of numbers, or the path of a file as measured")

@@ -1,4 +1,4 @@
-import { BufferGeometry, EdgesGeometry, Group, Line, LineBasicMaterial, LineSegments, Mesh, Vector3 } from "three";
+import { BufferGeometry, CanvasTexture, EdgesGeometry, Group, Line, LineBasicMaterial, LineSegments, Mesh, Sprite, SpriteMaterial, Vector3 } from "three";
 import { ConvexGeometry } from "three/examples/jsm/geometries/ConvexGeometry.js";
 import { ball, between, drum, paint, rod, turnTo } from "./shapes.js";
 import { color, lineColor } from "./theme.js";
@@ -20,6 +20,8 @@ export function plate(corners, thickness) {
   normal.normalize().multiplyScalar(thickness / 2);
   return new ConvexGeometry(corners.flatMap((point) => [point.clone().add(normal), point.clone().sub(normal)]));
 }
+
+const up = new Vector3(0, 0, 1);
 
 function makeJoint(joint, size, material) {
   const group = new Group();
@@ -44,19 +46,35 @@ function makeRail(rail, size) {
   return mesh;
 }
 
-function makeLeg(leg, index, size) {
+/** The leg's number, in front of everything; a wrong leg is called so. */
+function nameTag(index, wrong, size) {
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [256, 64];
+  const ink = canvas.getContext("2d");
+  ink.font = wrong ? "bold 46px sans-serif" : "40px sans-serif";
+  ink.textAlign = "center";
+  ink.fillStyle = color(wrong ? "fail" : "text");
+  ink.fillText(wrong ? `✗ leg ${index + 1}` : `${index + 1}`, 128, 48);
+  const tag = new Sprite(new SpriteMaterial({ map: new CanvasTexture(canvas), depthTest: false }));
+  tag.scale.set(0.3 * size, 0.075 * size, 1);
+  return tag;
+}
+
+function makeLeg(leg, index, size, wrong) {
   const group = new Group();
   const material = paint(lineColor(index));
   const metal = paint(color("metal"));
   const links = leg.links.map((_, k) => rod(linkRadius(leg, k) * size, material));
   const joints = leg.joints.map((joint) => makeJoint(joint, size, joint.driven ? material : metal));
-  group.add(...links, ...joints, ...leg.rails.map((rail) => makeRail(rail, size)));
+  const tag = nameTag(index, wrong, size);
+  group.add(...links, ...joints, tag, ...leg.rails.map((rail) => makeRail(rail, size)));
   const update = (place) => {
     leg.links.forEach((link, k) => between(links[k], vectorAt(link.from, place), vectorAt(link.to, place)));
     leg.joints.forEach((joint, k) => {
       joints[k].position.copy(vectorAt(joint.at, place));
       joint.axes.forEach((axis, i) => turnTo(joints[k].children[i], vectorAt(axis, place).normalize()));
     });
+    tag.position.copy(joints[0].position).addScaledVector(up, -0.07 * size);
   };
   return { group, update };
 }
@@ -75,7 +93,7 @@ export function makeMachine(machine, size) {
   const translucent = { transparent: true, opacity: 0.35, depthWrite: false };
   group.add(outlined(plate(base_points, 0.02 * size), paint(color("metal"), translucent), color("quiet")));
   const platform = outlined(plate(points(machine.hold), 0.04 * size), paint(color("plate"), { transparent: true, opacity: 0.85 }), color("quiet"));
-  const legs = machine.legs.map((leg, k) => makeLeg(leg, k, size));
+  const legs = machine.legs.map((leg, k) => makeLeg(leg, k, size, machine.wrong.includes(k)));
   const path = new Line(new BufferGeometry().setFromPoints(points(machine.p)), new LineBasicMaterial({ color: color("text") }));
   const P = ball(0.016 * size, paint(color("text")));
   group.add(platform, path, P, ...legs.map((leg) => leg.group));

@@ -50,14 +50,15 @@ TEST(SuiteRun, aFolderThatPassesExitsWith0AndWritesEverything) {
     EXPECT_TRUE(isThere(folder, std::string("results/suite/") + file)) << file;
 }
 
-TEST(SuiteRun, oneScenarioOfAFolderIsNoSuite) {
+TEST(SuiteRun, aFolderIsASuiteEvenOfOneScenario) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "in");
   folder.write("in/a.toml", shortScenario("alone"));
   const ProgramRun run = runProgram(folder, {"validate", "in"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("report: results/alone/report.html\n"));
-  EXPECT_FALSE(isThere(folder, "results/suite"));
+  EXPECT_THAT(run.out, EndsWith("1 passed, 0 failed, 0 inconclusive\nindex: results/suite/index.html\n"));
+  for (const char* file : {"index.html", "junit.xml", "suite.json", "alone/report.html"})
+    EXPECT_TRUE(isThere(folder, std::string("results/suite/") + file)) << file;
 }
 
 TEST(SuiteRun, oneThatFailsMakesTheExitCode1) {

@@ -78,7 +78,7 @@ def test_no_keyword_shows_the_bindings_words(quick):
     (lambda s: ursula.validate(s, rtol="a lot"), "validate: rtol is 'a lot' of type str, expected a number, a share such as '0.1%', or None"),
     (lambda s: ursula.validate(s, rtol=[1]), r"validate: rtol is \[1\] of type list, expected a number, a share such as '0.1%' or None"),
     (lambda s: ursula.validate(s, solver="python3 mine.py"),
-     "solver is 'python3 mine.py' of type str, expected a function of a Motion; `ursula validate --solver` takes a command"),
+     "solver is 'python3 mine.py' of type str, expected a function of a Motion; a command is for `ursula validate` in a terminal"),
     (lambda s: s.inverse_dynamics(np.zeros((20, 6))), "m is a value of type ndarray, expected ursula.Motion"),
     (lambda s: ursula.validate(s, rtl=1e-3), "validate: got an unexpected keyword argument 'rtl'"),
     (lambda s: ursula.read_scenario(3), "read_scenario: path is 3 of type int, expected a path"),
@@ -86,12 +86,35 @@ def test_no_keyword_shows_the_bindings_words(quick):
     (lambda s: s.inverse_dynamics([1, 2]), r"Scenario.inverse_dynamics: m is \[1, 2\] of type list, expected ursula.Motion"),
     (lambda s: s.motion(), "Scenario.motion: missing a required argument: 't'"),
     (lambda s: s.inverse_dynamics(s.motion(0), 2), "Scenario.inverse_dynamics: too many positional arguments"),
-    (lambda s: s.motion(0)["p"], "Motion.__getitem__: 'p' of type str is none of what it takes"),
+    (lambda s: s.motion(0)["p"], "Motion.__getitem__: 'p' of type str, expected an integer or a slice"),
+    (lambda s: ursula.Scenario(), r"^Scenario: results of functions are such objects, no call makes one; help\(ursula.Scenario\)"),
+    (lambda s: ursula.identify(s), "identify: t is missing, expected an array of numbers, or the path of a file as measured"),
     (lambda s: ursula.Motion(1), "Motion: missing a required argument: 'p'"),
 ])
 def test_the_argument_is_named(quick, call, words):
     with pytest.raises(TypeError, match=words):
         call(ursula.read_scenario(quick))
+
+
+@pytest.mark.parametrize("call, words", [
+    (lambda s, t, tau: ursula.validate(s, torques=tau, t=t[::-1]), r"^t\[1\] = \S+ comes after \S+ of t\[0\], expected increasing instants$"),
+    (lambda s, t, tau: ursula.validate(s, torques=tau, t=np.r_[t[:-1], t[-2]]), r"^t\[5\] = \S+ repeats t\[4\], expected"),
+    (lambda s, t, tau: ursula.validate(s, torques=tau, t=t + 9), r"^t\[0\] = 9 lies outside of the motion, expected 0 to"),
+    (lambda s, t, tau: ursula.validate(s, torques=tau[:0], t=t[:0]), "^torques: no rows, expected at least one$"),
+    (lambda s, t, tau: ursula.validate(s, torques=tau, t=t, rtol=-1), "^rtol is -1.0, expected a positive number$"),
+    (lambda s, t, tau: ursula.simulate(s, torques=tau, t=t[::-1]), r"^t\[1\] = \S+ comes after \S+ of t\[0\]"),
+    (lambda s, t, tau: ursula.compare({"t_s": t[::-1]}, {"t_s": t}), r"^reference\['t_s'\]\[1\] does not increase here"),
+    (lambda s, t, tau: ursula.compare({"t": t}, {"t_s": t}), "^reference: no 't_s', expected the instants, s$"),
+    (lambda s, t, tau: ursula.compare({"t_s": t}, {"t_s": t}, columns=["x"]), "^columns x: neither side has such a column$"),
+    (lambda s, t, tau: ursula.map(s, x=(0, 1)), r"^x is \(0, 1\), expected a number or \(from, to, count\)$"),
+    (lambda s, t, tau: ursula.map(s, x="a"), r"^x is 'a', expected a number or \(from, to, count\)$"),
+    (lambda s, t, tau: ursula.excite(s, harmonics=0), "^excite: expected a period and a seed of 0 or more, harmonics and tries of 1"),
+])
+def test_wrong_arrays_are_told_by_index_not_by_line(quick, call, words):
+    s = ursula.read_scenario(quick)
+    t = np.linspace(0, s.duration, 6)
+    with pytest.raises(ValueError, match=words):
+        call(s, t, s.inverse_dynamics(s.motion(t)))
 
 
 def test_an_error_within_a_solver_is_its_own(quick):

@@ -38,6 +38,15 @@ def test_through_another_process(quick, tmp_path):
     assert there.reason == here.reason and [c.name for c in there.checks] == [c.name for c in here.checks]
 
 
+def test_scenarios_are_equal_by_content(quick):
+    s = ursula.read_scenario(quick)
+    for again in (pickle.loads(pickle.dumps(s)), ursula.scenario(s.to_dict()), ursula.read_scenario(quick)):
+        assert again == s and hash(again) == hash(s) and again is not s
+    other = s.to_dict()
+    other["manipulator"]["platform"]["mass"] *= 1 + 1e-15
+    assert ursula.scenario(other) != s and s != "a scenario"
+
+
 @pytest.mark.parametrize("answer", [lambda tau: 1.001 * tau, lambda tau: tau])
 def test_results_of_every_verdict(quick, tmp_path, answer):
     s = ursula.read_scenario(quick)

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <string>
 #include <utility>
@@ -29,12 +31,6 @@ Matrix6d jacobianOf(const Scenario& scenario, const MachineTerms& machine, const
     out.row(m).head<3>() = r.cross(Vector3d(out.row(m).tail<3>())).transpose();
   }
   return out;
-}
-
-/// The Jacobian of a solver that takes b, given in the platform's frame, for a vector in the base's.
-Matrix6d unturnedJacobian(const Scenario& scenario, const MachineTerms& machine) {
-  return jacobianOf(scenario, machine,
-                    [&scenario](std::size_t i) { return scenario.manipulator->parameters().legs[i].platform_point; });
 }
 
 /// Three per leg, in leg order.
@@ -152,22 +148,25 @@ Vector6d forceAtP(const MachineTerms& machine, const Arm& arm) {
 void addJacobians(const Scenario& scenario, EffortCauses& out) {
   addTransposed(out);
   const NamedCause named{CauseKind::jacobian, "", "all"};
-  const auto unturned = [&scenario](std::size_t i) -> Vector3d {
-    return scenario.manipulator->parameters().legs[i].platform_point;
-  };
-  const auto add = [&](const char* of, const auto& wrong_at_P, const auto& at_P) {
-    out.add(std::string("the platform's points not turned into the base's frame in the Jacobian") + of, named,
-            [&scenario, wrong_at_P, at_P](const MachineTerms& machine) {
-              return throughJacobian(machine, unturnedJacobian(scenario, machine), wrong_at_P(machine), at_P(machine));
-            });
-  };
-  const auto all = [](const MachineTerms& machine) { return machine.forceAtP(); };
-  const auto platform = [](const MachineTerms& machine) { return machine.platform_wrench; };
-  add("", all, all);
-  add(
-      ", and where the legs' forces act",
-      [unturned](const MachineTerms& machine) { return forceAtP(machine, unturned); }, all);
-  add(" of the platform's forces", platform, platform);
+  const auto all = [](const MachineTerms& machine, const Arm& /*arm*/) { return machine.forceAtP(); };
+  const auto platform = [](const MachineTerms& machine, const Arm& /*arm*/) { return machine.platform_wrench; };
+  for (const auto& [way, back] :
+       {std::pair("not turned into the base's frame", false), {"turned the wrong way", true}}) {
+    const auto add = [&, way = way, back = back](const char* of, const auto& wrong_at_P, const auto& at_P) {
+      out.add(fmt::format("the platform's points {} in the Jacobian{}", way, of), named,
+              [&scenario, back, wrong_at_P, at_P](const MachineTerms& machine) {
+                const Arm arm = [&](std::size_t i) -> Vector3d {
+                  const Vector3d b = scenario.manipulator->parameters().legs[i].platform_point;
+                  return back ? Vector3d(machine.platform.R.transpose() * b) : b;
+                };
+                return throughJacobian(machine, jacobianOf(scenario, machine, arm), wrong_at_P(machine, arm),
+                                       at_P(machine, arm));
+              });
+    };
+    add("", all, all);
+    add(", and where the legs' forces act", forceAtP, all);
+    add(" of the platform's forces", platform, platform);
+  }
   out.add("the legs' forces on the platform without their moments about P", {CauseKind::jacobian, "", "legs"},
           [](const MachineTerms& machine) {
             const Vector6d wrong = forceAtP(machine, [](std::size_t) { return Vector3d::Zero().eval(); });
@@ -212,7 +211,7 @@ Vector6d withPointsNotTurned(const Scenario& scenario, const NotTurned& where, c
     machine.legs[i].efforts = openEffortsAt(scenario, i, motion, motion.p_dot + w.cross(fixed(i)),
                                             motion.p_ddot + alpha.cross(b) + w.cross(w.cross(b)));
   }
-  if (where.jacobian) return unturnedJacobian(scenario, machine).transpose().lu().solve(forceAtP(machine, fixed));
+  if (where.jacobian) return jacobianOf(scenario, machine, fixed).transpose().lu().solve(forceAtP(machine, fixed));
   return exactEfforts(machine);
 }
 

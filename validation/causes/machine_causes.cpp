@@ -125,12 +125,12 @@ void addKnees(const Manipulator& machine, MachineCauses& out) {
     int count = 0;
     for (int i = 0; i < all; ++i)
       if (legs >> i & 1) names += fmt::format("{}{}", count++ == 0 ? "" : ", ", bent[static_cast<std::size_t>(i)] + 1);
-    NamedCause named{CauseKind::parameter, "", "legs"};
+    std::optional<NamedCause> named = NamedCause{CauseKind::parameter, "", "legs", "manipulator.leg_defaults.knee"};
     if (count == 1) {
-      named.leg = std::stoi(names);
-      named.parameter = "manipulator.leg." + names + ".knee";
-    } else if (count == machine.legCount()) {
-      named.parameter = "manipulator.leg_defaults.knee";
+      named->leg = std::stoi(names);
+      named->parameter = "manipulator.leg." + names + ".knee";
+    } else if (count < machine.legCount()) {
+      named.reset();  // the contract has no name for some legs
     }
     out.addFixed({count == machine.legCount() ? std::string("the other knee on every leg")
                                               : fmt::format("the other knee on leg{} {}", count == 1 ? "" : "s", names),
@@ -183,7 +183,7 @@ void addPlatform(MachineCauses& out) {
         return fmt::format("a point mass at P of {} times the platform's mass", withDeviation(x, deviation));
       },
       [](double, double) {
-        return NamedCause{CauseKind::parameter, "", "platform"};
+        return NamedCause{CauseKind::parameter, "", "platform", "manipulator.platform"};
       });
 }
 

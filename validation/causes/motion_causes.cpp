@@ -154,6 +154,14 @@ void addFrames(const Scenario& scenario, std::vector<Cause>& out) {
   add({"velocity and acceleration of P taken for those of the platform's mass centre",
        NamedCause{CauseKind::reference_point, "", "platform"}},
       [rho](Motion<double>& motion) { ofMassCentre(motion, rho, -1); });
+  for (const auto& [words, sign] : {std::pair("the platform's mass centre taken for that of P", 1.0),
+                                    {"P taken for that of the platform's mass centre", -1.0}})
+    add({std::string("the acceleration alone of ") + words, NamedCause{CauseKind::reference_point, "", "platform"}},
+        [rho, sign = sign](Motion<double>& motion) {
+          const Vector3d velocity = motion.p_dot;
+          ofMassCentre(motion, rho, sign);
+          motion.p_dot = velocity;
+        });
   add({"the position of the platform's mass centre taken for that of P",
        NamedCause{CauseKind::reference_point, "", "platform"}},
       [rho](Motion<double>& motion) { motion.p += motion.Q * rho; });
@@ -193,16 +201,18 @@ void addNotTurned(const Scenario& scenario, std::vector<Cause>& out) {
   const auto add = [&](const CauseName& name, const MachineChange& change) {
     out.push_back(notTurned(scenario, name, change));
   };
-  add({"the platform's mass centre not turned into the base's frame",
-       NamedCause{CauseKind::frame, "orientation", "platform"}},
-      [](ManipulatorParameters& machine, const Matrix3d& Q) {
-        machine.platform.center_of_mass = (Q.transpose() * machine.platform.center_of_mass).eval();
-      });
-  add({"the platform's points not turned into the base's frame",
-       NamedCause{CauseKind::frame, "orientation", "platform"}},
-      [](ManipulatorParameters& machine, const Matrix3d& Q) {
-        for (Leg& leg : machine.legs) leg.platform_point = (Q.transpose() * leg.platform_point).eval();
-      });
+  const NamedCause orientation{CauseKind::frame, "orientation", "platform"};
+  for (const auto& [way, times] : {std::pair(" not turned into the base's frame", 1), {" turned the wrong way", 2}}) {
+    const auto back = [times = times](Vector3d& point, const Matrix3d& Q) {
+      for (int k = 0; k < times; ++k) point = (Q.transpose() * point).eval();
+    };
+    add({std::string("the platform's mass centre") + way, orientation},
+        [back](ManipulatorParameters& machine, const Matrix3d& Q) { back(machine.platform.center_of_mass, Q); });
+    add({std::string("the platform's points") + way, orientation},
+        [back](ManipulatorParameters& machine, const Matrix3d& Q) {
+          for (Leg& leg : machine.legs) back(leg.platform_point, Q);
+        });
+  }
   add({"the platform's products of inertia with the other sign (as CAD writes them)",
        NamedCause{CauseKind::sign, "inertia", "platform"}},
       [](ManipulatorParameters& machine, const Matrix3d& /*Q*/) {
@@ -233,8 +243,10 @@ void addLoads(const Scenario& scenario, std::vector<Cause>& out) {
   add({"the load taken in the other one's frame, of base and platform",
        NamedCause{CauseKind::frame, "load", "platform"}},
       [](Load& load) { load.frame = load.frame == Load::Frame::base ? Load::Frame::platform : Load::Frame::base; });
-  add({"the load taken to act at P", NamedCause{CauseKind::reference_point, "load", "platform"}},
-      [](Load& load) { load.point.setZero(); });
+  const Vector3d rho = scenario.manipulator->platform().center_of_mass;
+  for (const auto& [where, point] : {std::pair("P", Vector3d::Zero().eval()), {"the platform's mass centre", rho}})
+    add({std::string("the load taken to act at ") + where, NamedCause{CauseKind::reference_point, "load", "platform"}},
+        [point = point](Load& load) { load.point = point; });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "validation/subject/body_terms.h"
@@ -231,12 +232,14 @@ void addTensors(Collector& out) {
                 leftInOwnFrame(gyroscopic));
   out.addChange("the moment of inertia of ", " left in its own frame", CauseKind::frame, "inertia",
                 leftInOwnFrame(turningInertia));
-  out.addChange("the gyroscopic moment of ", " with the tensor of its own frame", CauseKind::frame, "gyroscopic",
-                [](const MachineTerms& machine, const BodyTerms& body) {
-                  BodyTerms own = body;
-                  own.inertia = body.R.transpose() * body.inertia * body.R;
-                  return Vector6d(gyroscopic(machine, own) - gyroscopic(machine, body));
-                });
+  for (const auto& [what, term, part] : {std::tuple("the gyroscopic moment of ", "gyroscopic", &gyroscopic),
+                                         {"the moment of angular acceleration of ", "inertia", &acceleratedInertia}})
+    out.addChange(what, " with the tensor of its own frame", CauseKind::frame, term,
+                  [part = part](const MachineTerms& machine, const BodyTerms& body) {
+                    BodyTerms own = body;
+                    own.inertia = body.R.transpose() * body.inertia * body.R;
+                    return Vector6d(part(machine, own) - part(machine, body));
+                  });
 }
 
 }  // namespace

@@ -13,6 +13,21 @@ namespace {
 
 bool isEqual(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
 
+/// The start of all members' paths: "manipulator.leg_defaults.distal.inertia".
+std::string sharedPath(const std::vector<Parameter>& members) {
+  const Parameter& first = members.front();
+  const bool of_one_leg =
+      std::all_of(members.begin(), members.end(), [&](const Parameter& each) { return each.leg == first.leg; });
+  const auto pathOf = [&](const Parameter& member) {
+    if (of_one_leg) return member.path;
+    return "manipulator.leg_defaults" + member.path.substr(member.path.find('.', sizeof("manipulator.leg.") - 1));
+  };
+  std::string shared = pathOf(first);
+  for (const Parameter& member : members)
+    while ((pathOf(member) + ".").rfind(shared + ".", 0) != 0) shared.erase(shared.rfind('.'));
+  return shared;
+}
+
 }  // namespace
 
 void TiedParameters::disturb(ManipulatorParameters& machine, double relative) const {
@@ -67,12 +82,8 @@ std::optional<NamedCause> TiedParameters::named(const ManipulatorParameters& mac
   if (one ||
       (std::all_of(members.begin(), members.end(), [&](const Parameter& each) { return each.leg == first.leg; })))
     out.leg = first.leg + 1;
-  if (!one && !is_legs) {
-    if (first.leg >= 0) out.body = members.front().body == members.back().body ? first.body : "legs";
-    return out;  // several numbers with different values
-  }
-  out.parameter = first.path;
-  if (!one) out.parameter.replace(0, first.path.find('.', sizeof("manipulator.leg.") - 1), "manipulator.leg_defaults");
+  out.parameter = sharedPath(members);
+  if (!one && !is_legs) return out;  // several numbers with different values
   out.unit = first.unit;
   out.expected = before;
   out.found = after;

@@ -19,8 +19,7 @@ struct TiedParameters {
   std::string text(const ManipulatorParameters& machine, double relative, double deviation) const;
   /// Whether masses, lengths and moments of inertia are positive.
   bool isPossible(const ManipulatorParameters& machine, double relative) const;
-  /// The same as `text`, typed. Returns nullopt for an impossible body, and if no single number of the scenario is the
-  /// cause.
+  /// The same as `text`, typed. Returns nullopt for an impossible body.
   std::optional<NamedCause> named(const ManipulatorParameters& machine, double relative, double deviation) const;
 };
 

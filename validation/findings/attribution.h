@@ -61,8 +61,12 @@ ErrorBudget attributeInTime(const Scenario& scenario, const std::vector<Pointwis
                             const std::vector<WindowedReplay>& windows, const Amplification* amplification,
                             const ReplayPlan& plan);
 
+/// The source of what is left if the efforts are those of a file.
+constexpr const char* between_samples = "between the samples";
+
 /// Adds the findings, and `along` as a curve. Amplification dominates if a replay's limit, not its error, prevents a
-/// verdict.
-void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units& units = {});
+/// verdict. `rest` names what no measured source explains.
+void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units& units = {},
+               const std::string& rest = name(ErrorSource::unexplained));
 
 }  // namespace ursula

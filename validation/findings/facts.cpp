@@ -38,20 +38,7 @@ void addStopped(const std::vector<WindowedReplay>& windows, const Units& units, 
   }
 }
 
-}  // namespace
-
-void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
-                 ValidationResult& result, const Units& units) {
-  result.replay_windows = windows.size();
-  if (samples.empty()) return;  // time ran out before the samples
-  double torque = 0, torque_error = 0, acceleration = 0, acceleration_error = 0;
-  for (const PointwiseSample& sample : samples) {
-    torque = std::max(torque, sample.torques_simbody.cwiseAbs().maxCoeff());
-    torque_error = larger(torque_error, sample.torque.error);
-    const double length = sample.conditioning.length;
-    acceleration = std::max(acceleration, sample.motion.p_ddot.norm() + length * sample.motion.omega_dot.norm());
-    acceleration_error = larger(acceleration_error, sample.acceleration.error);
-  }
+void addReplayed(const std::vector<WindowedReplay>& windows, const Units& units, ValidationResult& result) {
   long evaluations = 0;
   std::size_t steps = 0;
   double growth = 0;
@@ -60,23 +47,37 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
     steps += window.replay.steps.size() - (window.replay.steps.empty() ? 0 : 1);
     for (double value : window.window.growth) growth = std::max(growth, value);
   }
+  const auto add = [&result](const char* what, const std::string& text) { result.findings.emplace_back(what, text); };
+  add("replay tolerance", fmt::format("{:.3g}", windows.front().replay.tolerance));
+  add("replay windows", fmt::format("{}", windows.size()));
+  add("replay steps", fmt::format("{}", steps));
+  add("replay derivative evaluations", fmt::format("{}", evaluations));
+  add("growth of a velocity deviation in a window", fmt::format("{:.4g} m/(m/s)", growth * units.time));
+}
+
+}  // namespace
+
+void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
+                 ValidationResult& result, const Units& units) {
+  result.replay_windows = windows.size();
+  if (samples.empty()) return;  // time ran out before the samples
+  double acceleration = 0, acceleration_error = 0;
+  for (const PointwiseSample& sample : samples) {
+    const double length = sample.conditioning.length;
+    acceleration = std::max(acceleration, sample.motion.p_ddot.norm() + length * sample.motion.omega_dot.norm());
+    acceleration_error = larger(acceleration_error, sample.acceleration.error);
+  }
   addStopped(windows, units, result);
   std::vector<std::pair<std::string, std::string>> findings = {
-      {"largest torque", fmt::format("{:.6g} {}", torque * units.effort(), units.efforts.unit)},
-      {"torque error, relative to the largest", fmt::format("{:.3g}", torque > 0 ? torque_error / torque : 0)},
       {"largest platform acceleration", fmt::format("{:.6g} m/s^2", acceleration * units.acceleration())},
       {"acceleration error, relative to the largest",
        acceleration > 0 ? fmt::format("{:.3g}", acceleration_error / acceleration) : "none commanded"},
       {"largest condition number of B", nearestToSingular(samples, units)},
-      {"replay tolerance", windows.empty() ? "–" : fmt::format("{:.3g}", windows.front().replay.tolerance)},
-      {"replay windows", fmt::format("{}", windows.size())},
-      {"replay steps", fmt::format("{}", steps)},
-      {"replay derivative evaluations", fmt::format("{}", evaluations)},
-      {"growth of a velocity deviation in a window", fmt::format("{:.4g} m/(m/s)", growth * units.time)},
   };
   const auto edge = nearestToEdge(samples, units);
-  findings.insert(findings.begin() + 5, edge.begin(), edge.end());
+  findings.insert(findings.end(), edge.begin(), edge.end());
   result.findings.insert(result.findings.end(), findings.begin(), findings.end());
+  if (!windows.empty()) addReplayed(windows, units, result);
 }
 
 }  // namespace ursula

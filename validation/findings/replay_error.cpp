@@ -10,14 +10,14 @@
 namespace ursula {
 namespace {
 
-TimeSeries curveOf(const std::vector<ErrorsAt>& along) {
-  const std::pair<const char*, double ErrorsAt::*> columns[] = {{"t_s", &ErrorsAt::t},
+TimeSeries curveOf(const std::vector<ErrorsAt>& along, const std::string& rest) {
+  const std::pair<std::string, double ErrorsAt::*> columns[] = {{"t_s", &ErrorsAt::t},
                                                                 {"observed (m)", &ErrorsAt::observed},
                                                                 {"rounding (m)", &ErrorsAt::rounding},
                                                                 {"integration (m)", &ErrorsAt::integration},
                                                                 {"loop closure (m)", &ErrorsAt::closure},
                                                                 {"torques (m)", &ErrorsAt::model},
-                                                                {"unexplained (m)", &ErrorsAt::unexplained},
+                                                                {rest + " (m)", &ErrorsAt::unexplained},
                                                                 {"limit (m)", &ErrorsAt::limit}};
   TimeSeries curve;
   for (const auto& [name, member] : columns) {
@@ -52,15 +52,16 @@ ReplayError replayErrorOf(const ErrorBudget& budget, const Units& units) {
   return out;
 }
 
-void addSources(const ReplayError& found, ValidationResult& result) {
-  const auto add = [&result](const char* what, const std::string& text) { result.findings.emplace_back(what, text); };
+void addSources(const ReplayError& found, const std::string& rest, ValidationResult& result) {
+  const auto add = [&result](const std::string& what, const std::string& text) {
+    result.findings.emplace_back(what, text);
+  };
   add("replay, error in position", fmt::format("{:.3g} m at t = {:.6g} s", found.observed, found.t));
   add("of it by rounding", shareText(found.rounding));
   add("of it by the integration", shareText(found.integration));
   add("of it by the loops' gaps", shareText(found.closure));
   add("of it by the torques", shareText(found.model));
-  add("of it unexplained",
-      fmt::format("{:.3g} m, of an uncertainty of {:.3g} m", found.unexplained, found.uncertainty));
+  add("of it " + rest, fmt::format("{:.3g} m, of an uncertainty of {:.3g} m", found.unexplained, found.uncertainty));
   add("amplification of a deviation at the start", fmt::format("{:.4g}", found.amplification));
 }
 
@@ -84,7 +85,7 @@ const char* name(ErrorSource source) {
   throw std::logic_error("no such source of errors");
 }
 
-void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units& units) {
+void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units& units, const std::string& rest) {
   const bool limit_too_large = std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
     return check.reason == Reason::limit_useless && check.name.rfind("replay.", 0) == 0;
   });
@@ -102,11 +103,11 @@ void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units&
   ReplayError found = replayErrorOf(budget, units);
   // Errors of wrong torques soon leave the range in which sources add up; then the torques are all that can be told.
   if (torques_fail && 2 * found.uncertainty > found.observed) found = {};
-  found.dominant = name(dominant);
+  found.dominant = dominant == ErrorSource::unexplained ? rest : name(dominant);
   result.findings.emplace_back("dominant error", found.dominant);
   if (found.measured) {
-    result.curves.emplace_back("Sources of the replay's error", curveOf(budget.along));
-    addSources(found, result);
+    result.curves.emplace_back("Sources of the replay's error", curveOf(budget.along, rest));
+    addSources(found, rest, result);
   }
   result.replay_error = std::move(found);
 }
