@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# tools/try_wheel.sh FOLDER [--quick] makes a wheel in FOLDER and installs it into an empty virtual environment. It runs an
-# example there, and without --quick also the module's tests. NumPy and pytest are the system's; nothing is fetched.
+# tools/try_wheel.sh FOLDER [--quick] makes a wheel in FOLDER and installs it into an empty virtual environment, where it
+# asks for NumPy. With links to the system's NumPy alone it runs an example there, and without --quick, with links to
+# pytest too, the module's tests. Nothing is fetched.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 folder=${1:?FOLDER}
@@ -8,11 +9,22 @@ export PIP_NO_INDEX=1 PIP_DISABLE_PIP_VERSION_CHECK=1 PYTHONDONTWRITEBYTECODE=1
 unset PYTHONPATH
 
 rm -rf "$folder" "$folder-try"
-/usr/bin/python3 -m venv --system-site-packages "$folder-try"
+/usr/bin/python3 -m venv "$folder-try"
 python=$folder-try/bin/python
+packages=$("$python" -c 'import sysconfig; print(sysconfig.get_paths()["purelib"])')
+link() {
+  local each from
+  for each in "$@"; do
+    from=/usr/lib/python3/dist-packages/$each
+    [[ ! -e $from ]] || ln -s "$from" "$packages/"
+  done
+}
 "$python" -m pip wheel -q --no-deps -w "$folder" .
 wheels=("$folder"/ursula-*.whl)
-"$python" -m pip install -q "${wheels[0]}"
+"$python" -m pip install -q --no-deps "${wheels[0]}"
+said=$("$python" -c 'import ursula' 2>&1 || true)
+grep -q '^ImportError: ursula needs NumPy' <<<"$said" || { echo "without NumPy: $said" >&2; exit 1; }
+link numpy
 
 # Libraries may come only from the wheel, the interpreter, NumPy and what every system has.
 cd "$folder-try"
@@ -44,6 +56,7 @@ for factor, verdict in ((1, "pass"), (1.001, "fail")):
     assert r.verdict == verdict
 PYTHON
 if [[ ${2:-} != --quick ]]; then
+  link pytest _pytest pluggy iniconfig packaging attr attrs py py.py more_itertools
   MPLBACKEND=agg URSULA_PROGRAM=$PWD/build/ursula "$python" -m pytest -q -p no:cacheprovider tests/python
 fi
 echo "try_wheel: $(basename "${wheels[0]}"), $(($(stat -c %s "${wheels[0]}") / 1000000)) MB, works in an empty virtual environment"
