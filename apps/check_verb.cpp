@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/files_apart.h"
+#include "apps/output.h"
 #include "apps/streams.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
@@ -59,7 +60,8 @@ void addCheck(CLI::App& app, std::function<int()>& run) {
   verb->add_option("scenarios", options->scenarios, "Scenario files (TOML), - for standard input")->required();
   verb->add_option("--picture", options->picture,
                    "Draws the machine at the start of the motion, even if it is out of reach: SVG file; - for standard "
-                   "output");
+                   "output")
+      ->check(expectsSvg);
   verb->callback([options, &run] { run = [options] { return check(*options); }; });
 }
 

@@ -72,7 +72,8 @@ void addMap(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--at", options->at, "Instant, s; its pose gives the coordinates that are not given")
       ->capture_default_str();
   verb->add_option("--out", options->out, "CSV file; - for standard output, the default without --picture");
-  verb->add_option("--picture", options->picture, "Heat maps of every quantity: SVG file; - for standard output");
+  verb->add_option("--picture", options->picture, "Heat maps of every quantity: SVG file; - for standard output")
+      ->check(expectsSvg);
   addRowOptions(*verb, options->format, options->jobs);
   verb->callback([options, &run] { run = [options] { return map(*options); }; });
 }

@@ -11,6 +11,8 @@
 #include <memory>
 #include <vector>
 
+#include "base/nearest.h"
+
 namespace ursula {
 namespace {
 
@@ -52,6 +54,18 @@ void refuseLonelyPipe(int file, const TextBounds& bounds) {
   ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
 }
 
+/// ", did you mean 'my.toml'?", of the names in the missing file's folder.
+std::string nearName(const std::filesystem::path& file) {
+  constexpr std::size_t most = 1000;
+  std::vector<std::string> names;
+  std::error_code error;
+  std::filesystem::directory_iterator at(file.has_parent_path() ? file.parent_path() : ".", error);
+  for (; !error && at != std::filesystem::directory_iterator() && names.size() < most; at.increment(error))
+    names.push_back(at->path().filename().string());
+  std::sort(names.begin(), names.end());
+  return didYouMean(file.filename().string(), names);
+}
+
 }  // namespace
 
 void requirePath(const std::string& path) {
@@ -68,7 +82,8 @@ std::string readText(const std::filesystem::path& file, const TextBounds& bounds
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(opened < 0 ? nullptr : ::fdopen(opened, "rb"), &std::fclose);
   if (!in) {
     const bool is_missing = errno == ENOENT;
-    throw TextRefusal(fmt::format("{}, expected {}", is_missing ? "no such file" : "cannot be read", bounds.kind));
+    throw TextRefusal(fmt::format("{}, expected {}{}", is_missing ? "no such file" : "cannot be read", bounds.kind,
+                                  is_missing ? nearName(file) : ""));
   }
   refuseLonelyPipe(opened, bounds);
   return readAll(in.get(), bounds);

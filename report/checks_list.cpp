@@ -88,8 +88,8 @@ std::string item(const Check& check, const Decades& decades) {
       "</summary><dl>{7}{8}{9}{10}</dl></details>\n",
       name(check.verdict), open ? " open" : "", sign(check.verdict), word(check.verdict),
       escaped(checkTitle(check.name)), bar(check, decades), valueOfLimit(check),
-      entry("Means", row == nullptr ? "" : row->meaning), entry("Found", check.why), entry("Limit from", check.basis),
-      entry("In full", inFull(check)));
+      entry("Means", row == nullptr ? "" : row->meaning), entry("Found", check.why),
+      entry("Limit from", formulaInPrint(check.basis)), entry("In full", inFull(check)));
 }
 
 int severity(const std::vector<Check>& checks) {

@@ -8,6 +8,7 @@
 #include "report/assets.h"
 #include "report/picture.h"
 #include "report/plots.h"
+#include "report/quantity.h"
 #include "report/result_facts.h"
 #include "report/sections.h"
 #include "report/text.h"
@@ -28,6 +29,11 @@ std::string factsTable(const char* caption, const std::vector<std::pair<std::str
     rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped(key), escaped(text));
   }
   return fmt::format("<table class=\"facts\">\n<caption>{}</caption>\n<tbody>\n{}</tbody>\n</table>", caption, rows);
+}
+
+std::vector<std::pair<std::string, std::string>> printed(std::vector<std::pair<std::string, std::string>> facts) {
+  for (auto& [key, text] : facts) text = formulaInPrint(text);
+  return facts;
 }
 
 constexpr const char* suite_link = "<a class=\"up\" href=\"../index.html\">← The suite</a>\n";
@@ -90,7 +96,7 @@ std::vector<Part> parts(const ValidationResult& result, const Picture* picture, 
           {"numerics", "Numerics", figuresHtml(plots, PlotGroup::numerics)},
           {"statistics", "Error statistics", statisticsTable(result)},
           {"input", "Input", picture == nullptr ? "" : inputCard(*picture)},
-          {"findings", "Findings", factsTable("Facts that are not judged", result.findings)},
+          {"findings", "Findings", factsTable("Facts that are not judged", printed(result.findings))},
           {"provenance", "Provenance", factsTable("The sources of this result", result.provenance) + command(result)}};
 }
 

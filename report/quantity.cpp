@@ -89,6 +89,20 @@ std::string powersInPrint(const std::string& text) {
   return out + text.substr(static_cast<std::size_t>(from));
 }
 
+std::string formulaInPrint(const std::string& text) {
+  static const std::regex eps("\\beps\\b");
+  std::string out = std::regex_replace(powersInPrint(text), eps, "ε");
+  for (const auto& [from, to] : {std::pair("kappa(", "κ("),
+                                 {" x ", " × "},
+                                 {"||", "‖"},
+                                 {"inv(I)", "I⁻¹"},
+                                 {"|T|'", "|T|ᵀ"},
+                                 {"^2", "²"},
+                                 {" +- ", " ± "}})
+    out = replaced(out, from, to);
+  return out;
+}
+
 std::string percentText(double share) {
   return share < 0.1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
 }

@@ -17,6 +17,9 @@ std::string plainNumber(double value, int digits = 3);
 /// The text with every 2.75e+13 as 2.75 × 10¹³.
 std::string powersInPrint(const std::string& text);
 
+/// The text of a limit or a finding as in print: "eps kappa(B)^2 x ||T||" → "ε κ(B)² × ‖T‖".
+std::string formulaInPrint(const std::string& text);
+
 /// 0.0314 → "3.1 %", 0.31 → "31 %".
 std::string percentText(double share);
 

@@ -124,6 +124,9 @@ TEST(Csv, refusesAFileThatIsNotThereAndAFolder) {
   const TemporaryFolder folder;
   EXPECT_THAT(refusal<CsvError>([&] { readCsv(folder.path() / "none.csv"); }),
               EndsWith("none.csv:1: error: no such file, expected a CSV file"));
+  folder.write("mine.csv", "x\n1\n");
+  EXPECT_THAT(refusal<CsvError>([&] { readCsv(folder.path() / "mine.cvs"); }),
+              EndsWith("no such file, expected a CSV file, did you mean 'mine.csv'?"));
   EXPECT_THAT(refusal<CsvError>([&] { readCsv(folder.path()); }), EndsWith(":1: error: a folder, expected a CSV file"));
 }
 

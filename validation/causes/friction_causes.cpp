@@ -100,6 +100,11 @@ void addFrictionLeftOut(const Machine& machine, MachineCauses& out) {
     add("friction of the joints without motors left out", true, true, Joints::passive);
     add("friction of the driven joints left out", true, true, Joints::driven);
   }
+  for (const Coordinate coordinate : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d})
+    out.addFixed({fmt::format("friction on every {} left out", nameOf(coordinate)), named},
+                 [coordinate](Machine& changed) {
+                   for (Leg& leg : changed.legs) leg.friction.on(coordinate) = leg.coulomb.on(coordinate) = 0;
+                 });
 }
 
 }  // namespace

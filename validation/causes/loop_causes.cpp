@@ -150,14 +150,18 @@ void addJacobians(const Scenario& scenario, EffortCauses& out) {
   const NamedCause named{CauseKind::jacobian, "", "all"};
   const auto all = [](const MachineTerms& machine, const Arm& /*arm*/) { return machine.forceAtP(); };
   const auto platform = [](const MachineTerms& machine, const Arm& /*arm*/) { return machine.platform_wrench; };
-  for (const auto& [way, back] :
-       {std::pair("not turned into the base's frame", false), {"turned the wrong way", true}}) {
-    const auto add = [&, way = way, back = back](const char* of, const auto& wrong_at_P, const auto& at_P) {
+  enum class Turn { none, back, opposite };
+  for (const auto& [way, turn] : {std::pair("not turned into the base's frame", Turn::none),
+                                  {"turned the wrong way", Turn::back},
+                                  {"with the wrong sign", Turn::opposite}}) {
+    const auto add = [&, way = way, turn = turn](const char* of, const auto& wrong_at_P, const auto& at_P) {
       out.add(fmt::format("the platform's points {} in the Jacobian{}", way, of), named,
-              [&scenario, back, wrong_at_P, at_P](const MachineTerms& machine) {
+              [&scenario, turn, wrong_at_P, at_P](const MachineTerms& machine) {
                 const Arm arm = [&](std::size_t i) -> Vector3d {
                   const Vector3d b = scenario.manipulator->parameters().legs[i].platform_point;
-                  return back ? Vector3d(machine.platform.R.transpose() * b) : b;
+                  if (turn == Turn::none) return b;
+                  return turn == Turn::back ? Vector3d(machine.platform.R.transpose() * b)
+                                            : Vector3d(-machine.legs[i].arm);
                 };
                 return throughJacobian(machine, jacobianOf(scenario, machine, arm), wrong_at_P(machine, arm),
                                        at_P(machine, arm));

@@ -58,6 +58,9 @@ Vector6d everything(const MachineTerms& machine, const BodyTerms& body) {
 Vector6d centripetal(const MachineTerms& /*machine*/, const BodyTerms& body) {
   return forceWrench(body.mass * body.omega().cross(body.omega().cross(body.from)));
 }
+Vector6d tangential(const MachineTerms& /*machine*/, const BodyTerms& body) {
+  return forceWrench(body.mass * body.twist_rate.head<3>().cross(body.from));
+}
 Vector6d coriolis(const MachineTerms& /*machine*/, const BodyTerms& body) {
   return forceWrench(2 * body.mass * body.omega().cross(body.sliding));
 }
@@ -260,6 +263,7 @@ std::vector<Cause> termCauses(const Scenario& scenario) {
   for (const char* body : {"platform", "legs", "proximal", "distal"}) out.addPart("gravity", "gravity", gravity, body);
   out.addPart("the gyroscopic moment", "gyroscopic", gyroscopic);
   out.addPart("the centripetal acceleration", "centripetal", centripetal);
+  out.addPart("the tangential acceleration", "angular_acceleration", tangential, "platform", false);
   out.addPart("the Coriolis acceleration", "coriolis", coriolis, "distal");
   out.addPart("half of the Coriolis acceleration", "coriolis", halfCoriolis, "distal", false);
   out.addPart("the moment of inertia", "inertia", turningInertia);
