@@ -270,12 +270,11 @@ void addClosures(const Scenario& scenario, EffortCauses& out) {
       {"of the platform", [](const OpenLeg& leg) { return Vector3d(-leg.platform_bias); }},
       {"of legs and platform", [](const OpenLeg& leg) { return Vector3d(leg.bias - leg.platform_bias); }}};
   for (const auto& [whose, off] : left_out)
-    out.add(std::string("joint accelerations without the rate of the Jacobian ") + whose, named("bias"),
-            [off = off](const MachineTerms& machine) { return machine.ofAccelerations(off); });
-  out.add("joint accelerations with the centripetal part of the platform's points of the wrong sign", named("bias"),
-          [](const MachineTerms& machine) {
-            return machine.ofAccelerations([](const OpenLeg& leg) { return Vector3d(-2 * leg.platform_bias); });
-          });
+    for (const auto& [way, times] : {std::pair("without", 1), {"with the wrong sign of", 2}})
+      out.add(fmt::format("joint accelerations {} the rate of the Jacobian {}", way, whose), named("bias"),
+              [off = off, times = times](const MachineTerms& machine) {
+                return machine.ofAccelerations([&](const OpenLeg& leg) { return Vector3d(times * off(leg)); });
+              });
   out.add("the links' accelerations without the Jacobian's rate", named("bias"), withoutBias);
 }
 

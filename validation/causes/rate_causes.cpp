@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/angles.h"
@@ -84,7 +85,7 @@ void addAngles(const Scenario& scenario, std::vector<Cause>& out) {
 void addUnits(const Scenario& scenario, std::vector<Cause>& out) {
   constexpr double millimetres = 1000;
   using Of = std::vector<Vector3d Motion<double>::*>;
-  const auto add = [&](const char* text, const char* term, double factor, const Of& of,
+  const auto add = [&](const std::string& text, const char* term, double factor, const Of& of,
                        CauseKind kind = CauseKind::units) {
     NamedCause named{kind, term, "all"};
     named.expected = 1;
@@ -103,8 +104,9 @@ void addUnits(const Scenario& scenario, std::vector<Cause>& out) {
   add("the acceleration of P in millimetres", "acceleration", millimetres, {&Motion<double>::p_ddot});
   add("omega and its rate in degrees", "angular_velocity", degrees_per_radian, both);
   add("omega and its rate in degrees, taken for radians", "angular_velocity", 1 / degrees_per_radian, both);
-  add("half of the angular velocity, as of a quaternion's rate without its factor of 2", "angular_velocity", 0.5, omega,
-      CauseKind::scale);
+  for (const auto& [words, factor] : {std::pair("half of", 0.5), {"twice", 2.0}})
+    add(words + std::string(" the angular velocity, by the factor of 2 of a quaternion's rate"), "angular_velocity",
+        factor, omega, CauseKind::scale);
 }
 
 }  // namespace
