@@ -11,7 +11,7 @@ from judged import SOLVERS, judged  # noqa: E402
 BY_NAME = {each["name"]: each for each in SOLVERS}
 NAMED = ["tensor-P@UPS", "gyro-legs@UPS", "coriolis-legs@RUS", "spin@PUS", "jac-b@UPS", "open@RUS", "bias@UPS",
          "al-body@PUS", "grav-platform@UPS", "order-swap@UPS", "jac-b2@RUS", "digits-3@UPS", "single-in@PUS", "window@UPS",
-         "euler-rates@UPS", "dead-motor@UPS", "axis-x@RUS", "par-gravity@UPS"]
+         "euler-rates@UPS", "dead-motor@UPS", "axis-x@RUS", "par-gravity@UPS", "twice-omega@UPS", "centre-acceleration@PUS"]
 
 
 @pytest.mark.parametrize("name", NAMED)

@@ -115,6 +115,20 @@ def centre_pose(d, s):
     return motion(lambda m: about_centre(m, np.array(d["manipulator"]["platform"]["center_of_mass"])))(d, s)
 
 
+def twice_omega(m):
+    m.w = 2 * m.w
+
+
+def centre_acceleration(d, s):
+    """The acceleration alone of P is taken for the mass centre's."""
+    rho = np.array(d["manipulator"]["platform"]["center_of_mass"])
+
+    def change(m):
+        r = mv(rot(m.q), rho)
+        m.a = m.a - cross(m.alpha, r) - cross(m.w, cross(m.w, r))
+    return motion(change)(d, s)
+
+
 def gravity_turned(d, s):
     """The platform's weight points along the platform's own axes."""
     none, along = Hexapod(d, no_gravity="platform"), []
@@ -270,3 +284,5 @@ add("UPS", "half-alive", "motors 4 to 6 zero, the others 10 % too large", [K("sc
 add("URS", "one-digit", "one significant digit", [K("digits")],
     post(lambda y, m: np.array([[float(f"{x:.0e}") for x in row] for row in y])))
 add("PUS", "pulling", "no pushing: forces below zero are zero", [K("window"), None], post(lambda y, m: np.maximum(y, 0.0)))
+add("UPS", "twice-omega", "omega doubled", [K("scale", term="angular_velocity")], motion(twice_omega))
+add("PUS", "centre-acceleration", "the acceleration of P taken for the mass centre's", [K("reference_point", body="platform")], centre_acceleration)
