@@ -6,12 +6,15 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <set>
+#include <string>
 
 #include "tests/support/motions.h"
 #include "tests/validation/external_torques.h"
 #include "validation/causes/asked_apart.h"
 #include "validation/causes/diagnosis.h"
 #include "validation/causes/explanation.h"
+#include "validation/causes/tied_parameters.h"
 
 namespace ursula {
 namespace {
@@ -45,6 +48,18 @@ Diagnosis diagnosed(const Subject& subject) {
 NamedCause named(const Diagnosis& diagnosis) {
   EXPECT_TRUE(diagnosis.named) << diagnosis.cause;
   return diagnosis.named.value_or(NamedCause{});
+}
+
+TEST(NamedCause, severalNumbersHaveTheStartOfTheirPaths) {
+  std::set<std::string> paths;
+  for (const TiedParameters& tied : tiedParameters(*helix().manipulator)) {
+    const std::optional<NamedCause> named = tied.named(helix().manipulator->parameters(), 0.01, 0.001);
+    if (named && tied.members.size() > 1) paths.insert(named->parameter);
+  }
+  for (const char* each : {"manipulator.leg_defaults.distal.mass", "manipulator.leg_defaults.distal.inertia",
+                           "manipulator.leg_defaults", "manipulator.leg.4"})
+    EXPECT_THAT(paths, testing::Contains(each));
+  for (const char* each : {"", "manipulator"}) EXPECT_THAT(paths, testing::Not(testing::Contains(each)));
 }
 
 TEST(NamedCause, parametersHaveTheScenariosPathAndNumbers) {
