@@ -1,4 +1,4 @@
-import { BufferGeometry, CanvasTexture, EdgesGeometry, Group, Line, LineBasicMaterial, LineSegments, Mesh, Sprite, SpriteMaterial, Vector3 } from "three";
+import { BufferGeometry, CanvasTexture, EdgesGeometry, Group, Line, LineBasicMaterial, LineSegments, Mesh, Sprite, SpriteMaterial, SRGBColorSpace, Vector3 } from "three";
 import { ConvexGeometry } from "three/examples/jsm/geometries/ConvexGeometry.js";
 import { ball, between, drum, paint, rod, turnTo } from "./shapes.js";
 import { color, lineColor } from "./theme.js";
@@ -55,7 +55,9 @@ function nameTag(index, wrong, size) {
   ink.textAlign = "center";
   ink.fillStyle = color(wrong ? "fail" : "text");
   ink.fillText(wrong ? `✗ leg ${index + 1}` : `${index + 1}`, 128, 48);
-  const tag = new Sprite(new SpriteMaterial({ map: new CanvasTexture(canvas), depthTest: false }));
+  const map = new CanvasTexture(canvas);
+  map.colorSpace = SRGBColorSpace;
+  const tag = new Sprite(new SpriteMaterial({ map, depthTest: false }));
   tag.scale.set(0.3 * size, 0.075 * size, 1);
   return tag;
 }
