@@ -21,8 +21,9 @@ bool isOnePose(const TorqueResidual& data) {
 /// Gravity's size and its component are one number. A missing term or a wrong sign is also a number that is 0 or
 /// negated.
 bool sayTheSame(const NamedCause& first, const NamedCause& other) {
-  const bool one_term = first.kind == other.kind && first.term == other.term && first.leg == other.leg &&
-                        (!first.term.empty() || first.kind == CauseKind::reference_point);
+  const bool one_term =
+      first.kind == other.kind && first.term == other.term && first.leg == other.leg &&
+      (!first.term.empty() || first.kind == CauseKind::reference_point || first.kind == CauseKind::jacobian);
   if (one_term && other.kind != CauseKind::parameter) return true;  // for other bodies that make no difference here
   if (other.kind != CauseKind::parameter || !other.expected || !other.found) return false;
   const double expected = *other.expected, found = *other.found, little = 1e-3 * std::abs(expected);
