@@ -97,7 +97,7 @@ def _unmade(name):
 def put_in_words(classes):
     """Wraps every method of these classes that takes arguments, and refuses calls of those without a constructor."""
     for each in classes:
-        if "__init__" not in vars(each) and not issubclass(each, Exception):
+        if not (issubclass(each, Exception) or inspect.isfunction(each.__init__) or (each.__init__.__doc__ or "").startswith("__init__(")):
             each.__init__ = _unmade(each.__name__)
         for name, method in vars(each).copy().items():
             takes = callable(method) and (method.__doc__ or "").startswith(name + "(")

@@ -89,7 +89,7 @@ def test_a_map_that_cannot_be_is_refused(helix):
                          ({"jobs": -1}, "jobs: -1, expected 0 or more")):
         with pytest.raises(ValueError, match=words):
             ursula.map(s, **wrong)
-    with pytest.raises(TypeError):
+    with pytest.raises(ValueError, match=r"^x is <object object .*, expected a number or \(from, to, count\)$"):
         ursula.map(s, x=object())
 
 
@@ -121,7 +121,7 @@ def test_what_cannot_be_compared_is_refused(quick, tmp_path):
             ursula.compare(good, wrong)
     with pytest.raises(TypeError, match="test: expected a Result, a dict of arrays, or the path"):
         ursula.compare(good, 3)
-    with pytest.raises(ValueError, match="tolerance is -1.000000"):
+    with pytest.raises(ValueError, match="tolerance is -1.0,"):
         ursula.compare(good, good, tolerance=-1)
 
 
