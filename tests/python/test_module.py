@@ -138,7 +138,7 @@ def test_wrong_motions_are_refused(helix):
     s = ursula.read_scenario(helix)
     with pytest.raises(ValueError, match=r"t\[1\] is not finite"):
         s.motion([0, np.nan])
-    for no_numbers, found in (("soon", "str128"), (1j, "complex128"), (np.datetime64("2000-01-01"), "datetime64"),
+    for no_numbers, found in (("soon", "text"), (1j, "complex128"), (np.datetime64("2000-01-01"), "datetime64"),
                               (None, "object"), (np.ma.masked_all(3), "a masked array"), ([True], "bool")):
         with pytest.raises(ValueError, match=r"t: expected real numbers \(found " + found):
             s.motion(no_numbers)

@@ -82,7 +82,7 @@ def test_a_tolerance_of_ones_own(quick):
     (lambda m: np.zeros((len(m), 6), complex), r"of type ndarray, expected an array of real numbers \(found complex128\)"),
     (lambda m: np.zeros((len(m), 6), "datetime64[s]"), r"expected an array of real numbers \(found datetime64\[s\]\)"),
     (lambda m: np.full((len(m), 6), "1"), r"expected an array of real numbers \(found text\)"),
-    (lambda m: [[None] * 6] * len(m), r"expected an array of real numbers \(found object\)"),
+    (lambda m: [[None] * 6] * len(m), r"expected an array of real numbers \(found objects\)"),
     (lambda m: np.ma.masked_all((len(m), 6)), r"expected an array of real numbers \(found a masked array\)"),
     (lambda m: [np.ma.masked_all(6)] * len(m), r"expected an array of real numbers \(found a masked array\)"),
     (lambda m: np.broadcast_to(0.0, (10**12, 6)), r"to 11 instants has shape \(1000000000000, 6\), expected \(11, 6\)"),
