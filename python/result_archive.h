@@ -53,9 +53,14 @@ inline void members(Archive& archive, TermError& each) {
   archive(term, error);
 }
 
-inline void members(Archive& archive, LikelyCause& likely) {
-  auto& [off, cause, named, others, terms] = likely;
-  archive(off, cause, named, others, terms);
+inline void members(Archive& archive, CauseWords& words) {
+  auto& [off, cause] = words;
+  archive(off, cause);
+}
+
+inline void members(Archive& archive, Finding& finding) {
+  auto& [name, words, value, uncertainty, unit, t, leg] = finding;
+  archive(name, words, value, uncertainty, unit, t, leg);
 }
 
 /// It is parsed again from its text.
@@ -73,10 +78,10 @@ inline void members(Archive& archive, std::shared_ptr<const Scenario>& asked) {
 }
 
 inline void members(Archive& archive, ValidationResult& result) {
-  auto& [scenario, formulation, limits, verdict, checks, provenance, findings, replay_error, cause, windows, deviation,
-         timeseries, curves, events, asked] = result;
-  archive(scenario, formulation, limits, verdict, checks, provenance, findings, replay_error, cause, windows, deviation,
-          timeseries, curves, events, asked);
+  auto& [scenario, formulation, limits, verdict, checks, provenance, findings, replay_error, cause, causes, terms,
+         words, windows, deviation, timeseries, curves, events, asked] = result;
+  archive(scenario, formulation, limits, verdict, checks, provenance, findings, replay_error, cause, causes, terms,
+          words, windows, deviation, timeseries, curves, events, asked);
 }
 
 }  // namespace ursula::python

@@ -53,33 +53,30 @@ void written(const ValidationResult& result, const std::filesystem::path& dir) {
   }
 }
 
-/// A fact that is not judged.
-struct Finding {
-  std::string name, text;
-};
-
 std::optional<ReplayError> replayErrorOf(const ValidationResult& result) {
   const bool any = result.replay_error && result.replay_error->measured;
   return any ? result.replay_error : std::nullopt;
 }
 
-std::vector<Finding> findingsOf(const ValidationResult& result) {
-  std::vector<Finding> out;
-  for (const auto& [name, text] : result.findings) out.push_back({name, text});
-  return out;
-}
-
 void addFindings(py::module_& module) {
   py::class_<Finding> finding(module, "Finding", words::finding);
   addCopies(finding);
-  finding
-      .def(py::pickle([](const Finding& self) { return py::make_tuple(self.name, self.text); },
-                      [](const py::tuple& state) {
-                        return Finding{state[0].cast<std::string>(), state[1].cast<std::string>()};
-                      }))
+  const auto number = [](double Finding::*member) {
+    return [member](const Finding& self) {
+      return std::isnan(self.*member) ? std::nullopt : std::optional<double>(self.*member);
+    };
+  };
+  finding.def(pickled<Finding>())
       .def_readonly("name", &Finding::name, "The finding's subject.")
-      .def_readonly("text", &Finding::text, "The fact in words.")
-      .def("__repr__", [](const Finding& self) { return "<ursula.Finding " + self.name + ": " + self.text + ">"; });
+      .def_property_readonly("value", number(&Finding::value), "In `unit`; None for a fact that is no number.")
+      .def_property_readonly("uncertainty", number(&Finding::uncertainty), "In `unit`; None if it has none.")
+      .def_readonly("unit", &Finding::unit, "Empty for a number without one.")
+      .def_property_readonly("t", number(&Finding::t), "The instant, s; None if it is of none.")
+      .def_property_readonly(
+          "leg", [](const Finding& self) { return self.leg > 0 ? std::optional<int>(self.leg) : std::nullopt; },
+          "From 1; None if it is of none.")
+      .def_property_readonly("text", &textOf, "The fact in words.")
+      .def("__repr__", [](const Finding& self) { return "<ursula.Finding " + self.name + ": " + textOf(self) + ">"; });
 }
 
 void addDeviation(py::module_& module) {
@@ -172,8 +169,7 @@ void addCause(py::module_& module) {
 
 std::map<std::string, double> termsOf(const ValidationResult& result) {
   std::map<std::string, double> out;
-  if (result.likely_cause)
-    for (const TermError& each : result.likely_cause->terms) out[each.term] = each.error;
+  for (const TermError& each : result.terms) out[each.term] = each.error;
   return out;
 }
 
@@ -211,19 +207,12 @@ void addResult(py::module_& module) {
           "The reason for the verdict, in one sentence.")
       .def_property_readonly(
           "checks", [](const Result& result) { return result.checks; }, "All checks, in their order: a list of Check.")
-      .def_property_readonly("findings", &findingsOf, "Facts that are not judged, in their order: a list of Finding.")
+      .def_readonly("findings", &Result::findings, "Facts that are not judged, in their order: a list of Finding.")
       .def_property_readonly(
           "deviation", [](const Result& result) { return result.deviation; },
           "The largest error of the efforts: a Deviation, None if no effort was compared.")
-      .def_property_readonly(
-          "cause", [](const Result& result) { return result.likely_cause ? result.likely_cause->named : std::nullopt; },
-          "The likely cause of wrong efforts: a Cause, None if no cause is certain.")
-      .def_property_readonly(
-          "causes",
-          [](const Result& result) {
-            return result.likely_cause ? result.likely_cause->others : std::vector<NamedCause>{};
-          },
-          "Other causes that explain the deviation equally well: a list of Cause.")
+      .def_readonly("cause", &Result::cause, "The likely cause of wrong efforts: a Cause, None if no cause is certain.")
+      .def_readonly("causes", &Result::causes, "Other causes that explain the deviation equally well: a list of Cause.")
       .def_property_readonly("terms", &termsOf,
                              "Relative errors of the solver's answers to motions with one term at a time.")
       .def_property_readonly("replay_error", &replayErrorOf,

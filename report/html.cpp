@@ -88,7 +88,7 @@ struct Part {
 };
 
 std::vector<Part> parts(const ValidationResult& result, const Picture* picture, const std::vector<Plot>& plots) {
-  return {{"checks", "Checks", checksList(result.checks, result.likely_cause ? result.likely_cause->cause : "")},
+  return {{"checks", "Checks", checksList(result.checks, result.cause_words.cause)},
           {"errors", "Errors along the motion", figuresHtml(plots, PlotGroup::errors)},
           {"efforts", "Efforts", figuresHtml(plots, PlotGroup::efforts)},
           {"motion", "Motion", figuresHtml(plots, PlotGroup::motion)},
@@ -96,7 +96,7 @@ std::vector<Part> parts(const ValidationResult& result, const Picture* picture, 
           {"numerics", "Numerics", figuresHtml(plots, PlotGroup::numerics)},
           {"statistics", "Error statistics", statisticsTable(result)},
           {"input", "Input", picture == nullptr ? "" : inputCard(*picture)},
-          {"findings", "Findings", factsTable("Facts that are not judged", printed(result.findings))},
+          {"findings", "Findings", factsTable("Facts that are not judged", printed(findingTexts(result)))},
           {"provenance", "Provenance", factsTable("The sources of this result", result.provenance) + command(result)}};
 }
 

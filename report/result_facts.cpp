@@ -132,6 +132,12 @@ std::string undecided(const ValidationResult& result) {
 
 }  // namespace
 
+std::vector<std::pair<std::string, std::string>> findingTexts(const ValidationResult& result) {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const Finding& finding : result.findings) out.emplace_back(finding.name, textOf(finding));
+  return out;
+}
+
 std::string fact(const std::vector<std::pair<std::string, std::string>>& facts, const std::string& key) {
   for (const auto& [name, text] : facts)
     if (name == key) return text;
@@ -154,7 +160,8 @@ ResultFacts factsOf(const ValidationResult& result) {
   // Efforts of a file may cover a part of the motion; they are compared with the largest of all of it.
   if (result.deviation && result.deviation->largest_effort > 0) out.agreement = result.deviation->relative();
   if (result.replay_error) out.dominant = result.replay_error->dominant;
-  if (result.likely_cause) out.off = result.likely_cause->off, out.cause = result.likely_cause->cause;
+  out.off = result.cause_words.off;
+  out.cause = result.cause_words.cause;
   return out;
 }
 

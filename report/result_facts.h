@@ -38,7 +38,10 @@ struct KeyFigure {
 };
 std::vector<KeyFigure> keyFigures(const ValidationResult& result);
 
-/// Returns the text of a finding or of the provenance; "" if there is none.
+/// Returns the findings' names and texts.
+std::vector<std::pair<std::string, std::string>> findingTexts(const ValidationResult& result);
+
+/// Returns the text of the provenance or of a property; "" if there is none.
 std::string fact(const std::vector<std::pair<std::string, std::string>>& facts, const std::string& key);
 
 /// Returns a check's details without the words on the likely cause, which appear elsewhere.

@@ -72,12 +72,12 @@ Json causeJson(const NamedCause& cause) {
   return json;
 }
 
-void addCauses(const LikelyCause& likely, Json& summary) {
-  summary["cause"] = likely.named ? causeJson(*likely.named) : Json();
+void addCauses(const ValidationResult& result, Json& summary) {
+  summary["cause"] = result.cause ? causeJson(*result.cause) : Json();
   summary["causes"] = Json::array();
-  for (const NamedCause& other : likely.others) summary["causes"].push_back(causeJson(other));
+  for (const NamedCause& other : result.causes) summary["causes"].push_back(causeJson(other));
   summary["terms"] = Json::array();
-  for (const TermError& each : likely.terms) summary["terms"].push_back({{"term", each.term}, {"error", each.error}});
+  for (const TermError& each : result.terms) summary["terms"].push_back({{"term", each.term}, {"error", each.error}});
 }
 
 }  // namespace
@@ -93,10 +93,10 @@ std::string summaryJson(const ValidationResult& result) {
                   {"limits", name(result.limits)},
                   {"reason", reason(result.verdict, result.checks) + deviation},
                   {"checks", checks},
-                  {"findings", object(result.findings)},
+                  {"findings", object(findingTexts(result))},
                   {"provenance", object(result.provenance)}};
   if (result.deviation) summary["deviation"] = deviationJson(*result.deviation);
-  addCauses(result.likely_cause ? *result.likely_cause : LikelyCause{}, summary);
+  addCauses(result, summary);
   return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

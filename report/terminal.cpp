@@ -68,7 +68,7 @@ std::string word(const Check& check) {
   return check.reason == Reason::reported ? "not judged" : std::string(name(check.verdict));
 }
 
-std::string causeOf(const ValidationResult& result) { return result.likely_cause ? result.likely_cause->cause : ""; }
+std::string causeOf(const ValidationResult& result) { return result.cause_words.cause; }
 
 /// The explanation in one line, without the cause that applies to all checks.
 std::string whyLine(const Check& check, const std::string& cause) {
@@ -173,7 +173,7 @@ std::string reasonsText(const ValidationResult& result) {
     out += inEffortWords(effortNoun(result), replayText(*result.replay_error, effortNoun(result)));
   if (const std::vector<MotorDeviation> motors = motorsOff(result); !motors.empty())
     out += effortNoun(result) + "s against the expected ones:\n" + motorsText(motors);
-  if (result.likely_cause) out += "likely cause: " + result.likely_cause->cause + "\n";
+  if (!result.cause_words.cause.empty()) out += "likely cause: " + result.cause_words.cause + "\n";
   return out.empty() ? "" : "\n" + out;
 }
 

@@ -37,7 +37,7 @@ std::string oddOne(const Evidence& evidence, const ValidationResult& result) {
 
 /// Releases the judged data, because the time series needs the memory.
 void addFacts(const std::optional<ErrorBudget>& budget, Evidence& evidence, ValidationResult& result) {
-  if (evidence.answered()) result.findings.emplace_back("odd one out of the formulations", oddOne(evidence, result));
+  if (evidence.answered()) result.findings.push_back({"odd one out of the formulations", oddOne(evidence, result)});
   evidence.engines = std::vector<EngineSample>();
   evidence.invariances = std::vector<InvarianceSamples>();
   addFindings(evidence.samples, evidence.windows, result, evidence.units());

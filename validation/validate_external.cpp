@@ -23,13 +23,13 @@ namespace ursula {
 namespace {
 
 void addFileFindings(const TorqueFile& file, ValidationResult& result) {
-  result.findings.emplace_back("torque file", fmt::format("{} instants from {:.6g} to {:.6g} s, up to {} digits",
-                                                          file.rows(), file.t.front(), file.t.back(), file.digits));
-  if (!file.read_as.empty()) result.findings.emplace_back("torque file read as", file.read_as);
+  result.findings.push_back({"torque file", fmt::format("{} instants from {:.6g} to {:.6g} s, up to {} digits",
+                                                        file.rows(), file.t.front(), file.t.back(), file.digits)});
+  if (!file.read_as.empty()) result.findings.push_back({"torque file read as", file.read_as});
   if (!file.ignored.empty()) {
     std::string names;
     for (const std::string& name : file.ignored) names += (names.empty() ? "" : ", ") + name;
-    result.findings.emplace_back("columns ignored", names);
+    result.findings.push_back({"columns ignored", names});
   }
 }
 
@@ -71,8 +71,8 @@ void addFacts(const Evidence& evidence, const ErrorBudget& budget, ValidationRes
   result.timeseries = validationSeries(*evidence.scenario->manipulator, evidence.samples, evidence.windows);
   addFindings(evidence.samples, evidence.windows, result, evidence.units());
   addCurves(evidence.samples, evidence.windows, result);
-  if (!evidence.not_replayed.empty()) result.findings.emplace_back("replay", "none: " + evidence.not_replayed);
-  if (!evidence.spline.empty()) result.findings.emplace_back("spline", evidence.spline);
+  if (!evidence.not_replayed.empty()) result.findings.push_back({"replay", "none: " + evidence.not_replayed});
+  if (!evidence.spline.empty()) result.findings.push_back({"spline", evidence.spline});
   addBudget(budget, result, evidence.units(), between_samples);
 }
 

@@ -151,7 +151,21 @@ class Finding:
     @property
     def name(self) -> str: ...
     @property
-    def text(self) -> str: ...
+    def value(self) -> float | None:
+        """In `unit`; None for a fact that is no number."""
+    @property
+    def uncertainty(self) -> float | None: ...
+    @property
+    def unit(self) -> str: ...
+    @property
+    def t(self) -> float | None:
+        """The instant, s."""
+    @property
+    def leg(self) -> int | None:
+        """From 1."""
+    @property
+    def text(self) -> str:
+        """The fact in words."""
 
 class Cause:
     """One cause of wrong efforts; fields that do not apply are None."""

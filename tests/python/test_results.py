@@ -19,6 +19,11 @@ def test_findings_are_those_of_the_summary(quick):
     r = judged(quick, 1.01)
     found = {each.name: each.text for each in r.findings}
     assert found and found == r.summary["findings"]
+    acceleration = next(each for each in r.findings if each.name == "largest platform acceleration")
+    assert acceleration.value > 0 and acceleration.unit == "m/s^2" and acceleration.t is None
+    sine = next(each for each in r.findings if each.name == "smallest |sin theta|")
+    assert 0 < sine.value < 1 and 1 <= sine.leg <= 6 and 0 <= sine.t <= 3
+    assert next(each for each in r.findings if each.name == "dominant error").value is None
     again = pickle.loads(pickle.dumps(r.findings[0]))
     assert (again.name, again.text) == (r.findings[0].name, r.findings[0].text) and again.name in repr(again)
 

@@ -178,10 +178,9 @@ ValidationResult externalSample() {
   result.checks[0] = judged("torque.pointwise", 1.9, 4.1e-10, "N·m", result.checks[0].basis, "leg 3, t = 2.2 s");
   result.checks.push_back(notApplicable("torque.twin", "N·m", "a file gives torques alone, at its own instants"));
   result.verdict = overall(result.checks);
-  result.findings.emplace_back("torques that are off", "leg 3 by up to 1.9 N m; within their limits: 1, 2, 4, 5, 6");
-  result.findings.emplace_back("likely cause", "a factor of 1.001 on leg 3");
-  result.likely_cause =
-      LikelyCause{"leg 3 by up to 1.9 N m; within their limits: 1, 2, 4, 5, 6", "a factor of 1.001 on leg 3"};
+  result.findings.push_back({"torques that are off", "leg 3 by up to 1.9 N m; within their limits: 1, 2, 4, 5, 6"});
+  result.findings.push_back({"likely cause", "a factor of 1.001 on leg 3"});
+  result.cause_words = {"leg 3 by up to 1.9 N m; within their limits: 1, 2, 4, 5, 6", "a factor of 1.001 on leg 3"};
   result.provenance[2].second = "leg3.csv";
   for (std::size_t k = 0; k < result.timeseries.names.size(); ++k) {
     std::vector<double>& column = result.timeseries.columns[k];

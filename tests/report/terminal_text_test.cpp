@@ -84,7 +84,7 @@ TEST(TerminalText, showsWrongMotorsAsATable) {
   result.timeseries.add("simbody_tau_2_Nm", {0, 10, 20});
   result.timeseries.add("tau_3_Nm", {1, 2, nan});
   result.timeseries.add("simbody_tau_3_Nm", {1, 2.5, 3});
-  result.likely_cause = LikelyCause{"", "of two kinds"};
+  result.cause_words = {"", "of two kinds"};
   EXPECT_THAT(report::validationText(result, false), HasSubstr(R"(
 torques against the expected ones:
   motor    off by  at t  factor     offset

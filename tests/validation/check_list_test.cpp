@@ -118,8 +118,8 @@ TEST(CheckList, whatWasNotComputedIsNotShown) {
   EXPECT_TRUE(std::isnan(error->back()));
   EXPECT_TRUE(std::isfinite(result.timeseries.find("tau_1_Nm")->back()));
   std::string stopped;
-  for (const auto& [key, text] : result.findings)
-    if (key == "replay stopped") stopped = text;
+  for (const Finding& finding : result.findings)
+    if (finding.name == "replay stopped") stopped = textOf(finding);
   EXPECT_THAT(stopped, testing::HasSubstr("stopped at t = "));
 }
 

@@ -26,8 +26,8 @@ TorqueFile printed(const TorqueTable& table, const char* format) {
 }
 
 std::string finding(const ValidationResult& result, const std::string& key) {
-  for (const auto& [name, text] : result.findings)
-    if (name == key) return text;
+  for (const Finding& each : result.findings)
+    if (each.name == key) return textOf(each);
   return "(none)";
 }
 

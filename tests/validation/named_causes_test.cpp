@@ -226,14 +226,17 @@ TEST(NamedCause, tiesAreLeftOpenUnlessTheySayTheSame) {
 }
 
 TEST(NamedCause, anAnswerThatChangesComesFirst) {
-  LikelyCause likely{"leg 1", "a factor", NamedCause{CauseKind::scale, "", "all"}, {}, {{"statics", 1e-6}}};
-  nameState(likely);
-  EXPECT_EQ(likely.named.value().kind, CauseKind::scale);
-  likely.terms.push_back({repeat_term, 1e-6});
-  nameState(likely);
-  EXPECT_EQ(likely.named.value().kind, CauseKind::state);
-  ASSERT_EQ(likely.others.size(), 1U);
-  EXPECT_EQ(likely.others.front().kind, CauseKind::scale);
+  ValidationResult result;
+  result.cause_words = {"leg 1", "a factor"};
+  result.cause = NamedCause{CauseKind::scale, "", "all"};
+  result.terms = {{"statics", 1e-6}};
+  nameState(result);
+  EXPECT_EQ(result.cause.value().kind, CauseKind::scale);
+  result.terms.push_back({repeat_term, 1e-6});
+  nameState(result);
+  EXPECT_EQ(result.cause.value().kind, CauseKind::state);
+  ASSERT_EQ(result.causes.size(), 1U);
+  EXPECT_EQ(result.causes.front().kind, CauseKind::scale);
 }
 
 std::map<std::string, double> asked(const Subject& subject) {

@@ -276,14 +276,16 @@ Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques, con
 
 void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result) {
   if (diagnosis.summary.empty()) return;
-  LikelyCause likely{diagnosis.deviation, diagnosis.cause, diagnosis.named, diagnosis.others, diagnosis.terms};
-  nameState(likely);
-  result.findings.emplace_back("torques that are off", diagnosis.deviation);
-  result.findings.emplace_back("likely cause", likely.cause);
+  result.cause_words = {diagnosis.deviation, diagnosis.cause};
+  result.cause = diagnosis.named;
+  result.causes = diagnosis.others;
+  result.terms = diagnosis.terms;
+  nameState(result);
+  result.findings.push_back({"torques that are off", diagnosis.deviation});
+  result.findings.push_back({"likely cause", result.cause_words.cause});
   for (Check& check : result.checks)
     if (check.verdict == Verdict::fail)
-      check.why += fmt::format(". Off: {}. Likely cause: {}", diagnosis.summary, likely.cause);
-  result.likely_cause = std::move(likely);
+      check.why += fmt::format(". Off: {}. Likely cause: {}", diagnosis.summary, result.cause_words.cause);
 }
 
 }  // namespace ursula

@@ -67,15 +67,15 @@ Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& dat
   return out;
 }
 
-void nameState(LikelyCause& likely) {
-  const auto repeat = std::find_if(likely.terms.begin(), likely.terms.end(),
+void nameState(ValidationResult& result) {
+  const auto repeat = std::find_if(result.terms.begin(), result.terms.end(),
                                    [](const TermError& each) { return each.term == repeat_term; });
-  if (repeat == likely.terms.end() || !(repeat->error > 1e-12)) return;
-  if (likely.named) likely.others.insert(likely.others.begin(), *likely.named);
-  likely.named = NamedCause{CauseKind::state, "", "all"};
-  likely.cause = fmt::format(
+  if (repeat == result.terms.end() || !(repeat->error > 1e-12)) return;
+  if (result.cause) result.causes.insert(result.causes.begin(), *result.cause);
+  result.cause = NamedCause{CauseKind::state, "", "all"};
+  result.cause_words.cause = fmt::format(
       "the solver answers the same question otherwise when it is asked again, by {:.2g} of the efforts; else: {}",
-      repeat->error, likely.cause);
+      repeat->error, result.cause_words.cause);
 }
 
 }  // namespace ursula

@@ -21,6 +21,6 @@ struct Explanation {
 Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& data, std::string text);
 
 /// Names the state of a solver that answers the same question differently; it precedes every other cause.
-void nameState(LikelyCause& likely);
+void nameState(ValidationResult& result);
 
 }  // namespace ursula

@@ -3,29 +3,37 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 #include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
 
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
 /// The largest κ(B), which is infinite at a singular pose.
-std::string nearestToSingular(const std::vector<PointwiseSample>& samples, const Units& units) {
+Finding nearestToSingular(const std::vector<PointwiseSample>& samples, const Units& units) {
   const PointwiseSample& at = *std::max_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
     return a.conditioning.kappa_B < b.conditioning.kappa_B;
   });
-  return fmt::format("{:.4g}, at t = {:.6g} s", at.conditioning.kappa_B, at.motion.t * units.time);
+  return {"largest condition number of B", "", at.conditioning.kappa_B, none, "", at.motion.t * units.time};
 }
 
 /// The smallest |sin θ|, which is 0 if a leg is stretched or folded; none where no leg has a knee.
-std::vector<std::pair<std::string, std::string>> nearestToEdge(const std::vector<PointwiseSample>& samples,
-                                                               const Units& units) {
+std::optional<Finding> nearestToEdge(const std::vector<PointwiseSample>& samples, const Units& units) {
   const PointwiseSample& at = *std::min_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
     return a.conditioning.smallest_sine < b.conditioning.smallest_sine;
   });
   if (!(at.conditioning.smallest_sine < 1)) return {};
-  return {{"smallest |sin theta|", fmt::format("{:.4g}, leg {} at t = {:.6g} s", at.conditioning.smallest_sine,
-                                               at.conditioning.smallest_sine_leg + 1, at.motion.t * units.time)}};
+  return Finding{"smallest |sin theta|",
+                 "",
+                 at.conditioning.smallest_sine,
+                 none,
+                 "",
+                 at.motion.t * units.time,
+                 at.conditioning.smallest_sine_leg + 1};
 }
 
 void addStopped(const std::vector<WindowedReplay>& windows, const Units& units, ValidationResult& result) {
@@ -34,7 +42,7 @@ void addStopped(const std::vector<WindowedReplay>& windows, const Units& units, 
     if (replay.gave_up.empty() && !replay.left_path) continue;
     const double t = replay.left_path && !replay.steps.empty() ? replay.steps.back().t : replay.stopped_at;
     const std::string why = replay.left_path ? "P was off by more than the platform's size" : replay.gave_up;
-    result.findings.emplace_back("replay stopped", fmt::format("stopped at t = {:.6g} s: {}", t * units.time, why));
+    result.findings.push_back({"replay stopped", fmt::format("stopped at t = {:.6g} s: {}", t * units.time, why)});
   }
 }
 
@@ -47,12 +55,14 @@ void addReplayed(const std::vector<WindowedReplay>& windows, const Units& units,
     steps += window.replay.steps.size() - (window.replay.steps.empty() ? 0 : 1);
     for (double value : window.window.growth) growth = std::max(growth, value);
   }
-  const auto add = [&result](const char* what, const std::string& text) { result.findings.emplace_back(what, text); };
-  add("replay tolerance", fmt::format("{:.3g}", windows.front().replay.tolerance));
-  add("replay windows", fmt::format("{}", windows.size()));
-  add("replay steps", fmt::format("{}", steps));
-  add("replay derivative evaluations", fmt::format("{}", evaluations));
-  add("growth of a velocity deviation in a window", fmt::format("{:.4g} m/(m/s)", growth * units.time));
+  const auto add = [&result](const char* what, double value, const char* unit = "") {
+    result.findings.push_back({what, "", value, none, unit});
+  };
+  add("replay tolerance", windows.front().replay.tolerance);
+  add("replay windows", static_cast<double>(windows.size()));
+  add("replay steps", static_cast<double>(steps));
+  add("replay derivative evaluations", static_cast<double>(evaluations));
+  add("growth of a velocity deviation in a window", growth * units.time, "m/(m/s)");
 }
 
 }  // namespace
@@ -68,15 +78,11 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
     acceleration_error = larger(acceleration_error, sample.acceleration.error);
   }
   addStopped(windows, units, result);
-  std::vector<std::pair<std::string, std::string>> findings = {
-      {"largest platform acceleration", fmt::format("{:.6g} m/s^2", acceleration * units.acceleration())},
-      {"acceleration error, relative to the largest",
-       acceleration > 0 ? fmt::format("{:.3g}", acceleration_error / acceleration) : "none commanded"},
-      {"largest condition number of B", nearestToSingular(samples, units)},
-  };
-  const auto edge = nearestToEdge(samples, units);
-  findings.insert(findings.end(), edge.begin(), edge.end());
-  result.findings.insert(result.findings.end(), findings.begin(), findings.end());
+  result.findings.push_back({"largest platform acceleration", "", acceleration * units.acceleration(), none, "m/s^2"});
+  const double relative = acceleration > 0 ? acceleration_error / acceleration : none;
+  result.findings.push_back({"acceleration error, relative to the largest", "none commanded", relative});
+  result.findings.push_back(nearestToSingular(samples, units));
+  if (const auto edge = nearestToEdge(samples, units)) result.findings.push_back(*edge);
   if (!windows.empty()) addReplayed(windows, units, result);
 }
 

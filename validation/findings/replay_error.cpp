@@ -29,10 +29,6 @@ TimeSeries curveOf(const std::vector<ErrorsAt>& along, const std::string& rest) 
   return curve;
 }
 
-std::string shareText(const SourceOfError& source) {
-  return fmt::format("{:.3g} m +- {:.2g} m", source.error, source.uncertainty);
-}
-
 /// Converts to SI.
 ReplayError replayErrorOf(const ErrorBudget& budget, const Units& units) {
   const auto source = [&units](const ErrorShare& share) {
@@ -53,16 +49,16 @@ ReplayError replayErrorOf(const ErrorBudget& budget, const Units& units) {
 }
 
 void addSources(const ReplayError& found, const std::string& rest, ValidationResult& result) {
-  const auto add = [&result](const std::string& what, const std::string& text) {
-    result.findings.emplace_back(what, text);
+  const auto add = [&result](const std::string& what, const SourceOfError& source) {
+    result.findings.push_back({what, "", source.error, source.uncertainty, "m"});
   };
-  add("replay, error in position", fmt::format("{:.3g} m at t = {:.6g} s", found.observed, found.t));
-  add("of it by rounding", shareText(found.rounding));
-  add("of it by the integration", shareText(found.integration));
-  add("of it by the loops' gaps", shareText(found.closure));
-  add("of it by the torques", shareText(found.model));
-  add("of it " + rest, fmt::format("{:.3g} m, of an uncertainty of {:.3g} m", found.unexplained, found.uncertainty));
-  add("amplification of a deviation at the start", fmt::format("{:.4g}", found.amplification));
+  result.findings.push_back({"replay, error in position", "", found.observed, none, "m", found.t});
+  add("of it by rounding", found.rounding);
+  add("of it by the integration", found.integration);
+  add("of it by the loops' gaps", found.closure);
+  add("of it by the torques", found.model);
+  add("of it " + rest, {found.unexplained, found.uncertainty});
+  result.findings.push_back({"amplification of a deviation at the start", "", found.amplification});
 }
 
 }  // namespace
@@ -104,7 +100,7 @@ void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units&
   // Errors of wrong torques soon leave the range in which sources add up; then the torques are all that can be told.
   if (torques_fail && 2 * found.uncertainty > found.observed) found = {};
   found.dominant = dominant == ErrorSource::unexplained ? rest : name(dominant);
-  result.findings.emplace_back("dominant error", found.dominant);
+  result.findings.push_back({"dominant error", found.dominant});
   if (found.measured) {
     result.curves.emplace_back("Sources of the replay's error", curveOf(budget.along, rest));
     addSources(found, rest, result);

@@ -69,8 +69,8 @@ void sayEfforts(ValidationResult& result) {
   const std::string noun = effortNoun(result);
   const auto say = [&noun](std::string& text) { text = inEffortWords(noun, text); };
   for (Check& check : result.checks) say(check.basis), say(check.why);
-  for (auto& [key, text] : result.findings) say(key), say(text);
-  if (result.likely_cause) say(result.likely_cause->off), say(result.likely_cause->cause);
+  for (Finding& finding : result.findings) say(finding.name), say(finding.words);
+  say(result.cause_words.off), say(result.cause_words.cause);
   for (Event& event : result.events) say(event.what);
   for (auto& [title, curve] : result.curves) {
     say(title);

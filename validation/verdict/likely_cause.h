@@ -51,12 +51,9 @@ struct TermError {
   double error = 0;
 };
 
-/// The wrong efforts, and their possible cause.
-struct LikelyCause {
-  std::string off, cause;                ///< in words; without a named cause, `cause` gives what is known
-  std::optional<NamedCause> named = {};  ///< nullopt unless exactly one machine or mistake explains it
-  std::vector<NamedCause> others = {};   ///< causes that explain the deviation equally well
-  std::vector<TermError> terms = {};     ///< empty for efforts from a file
+/// The wrong efforts and their cause in words. Without a named cause, `cause` gives what is known.
+struct CauseWords {
+  std::string off, cause;
 };
 
 }  // namespace ursula

@@ -129,4 +129,16 @@ const std::vector<double>* TimeSeries::find(const std::string& column_name) cons
   return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];
 }
 
+std::string textOf(const Finding& finding) {
+  if (std::isnan(finding.value)) return finding.words;
+  const bool counts = finding.value == std::floor(finding.value) && std::abs(finding.value) < 1e9;
+  const std::string unit = finding.unit.empty() ? "" : " " + finding.unit;
+  std::string out = counts ? fmt::format("{:.0f}", finding.value) : fmt::format("{:.4g}", finding.value);
+  out += unit;
+  if (!std::isnan(finding.uncertainty)) out += fmt::format(" +- {:.2g}{}", finding.uncertainty, unit);
+  if (finding.leg > 0) out += fmt::format(", leg {}", finding.leg);
+  if (!std::isnan(finding.t)) out += fmt::format(" at t = {:.6g} s", finding.t);
+  return out;
+}
+
 }  // namespace ursula

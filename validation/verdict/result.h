@@ -148,6 +148,19 @@ struct ReplayError {
   double amplification = 0;                 ///< growth of a deviation at the window's start
 };
 
+/// A fact beside the checks that is not judged. Members that do not apply are empty, NaN or 0.
+struct Finding {
+  std::string name;   ///< "largest condition number of B"
+  std::string words;  ///< a fact that is no number
+  double value = std::numeric_limits<double>::quiet_NaN(), uncertainty = value;
+  std::string unit = {};
+  double t = std::numeric_limits<double>::quiet_NaN();  ///< s
+  int leg = 0;                                          ///< 1-based
+};
+
+/// Returns the fact in words: "4e-11 m +- 4e-12 m", "0.57, leg 2 at t = 0 s".
+std::string textOf(const Finding& finding);
+
 /// The result of one scenario's validation. Provenance keeps its order: (key, value as text).
 struct ValidationResult {
   std::string scenario;
@@ -157,9 +170,12 @@ struct ValidationResult {
   std::vector<Check> checks;
   std::vector<std::pair<std::string, std::string>> provenance;
   /// Facts that are not judged: step counts, condition numbers, the dominant error, …
-  std::vector<std::pair<std::string, std::string>> findings;
+  std::vector<Finding> findings;
   std::optional<ReplayError> replay_error;   ///< nullopt if the caller left it out
-  std::optional<LikelyCause> likely_cause;   ///< nullopt if unknown
+  std::optional<NamedCause> cause;           ///< of wrong efforts; nullopt unless exactly one explains everything
+  std::vector<NamedCause> causes;            ///< others that explain the deviation equally well
+  std::vector<TermError> terms;              ///< of a solver that was asked apart; empty for efforts from a file
+  CauseWords cause_words;                    ///< empty if no effort is wrong
   std::size_t replay_windows = 0;            ///< number of windows in the replay
   std::optional<EffortDeviation> deviation;  ///< nullopt if no effort was compared
   TimeSeries timeseries;
