@@ -52,7 +52,7 @@ void addSources(const ReplayError& found, const std::string& rest, ValidationRes
   const auto add = [&result](const std::string& what, const SourceOfError& source) {
     result.findings.push_back({what, "", source.error, source.uncertainty, "m"});
   };
-  result.findings.push_back({"replay, error in position", "", found.observed, none, "m", found.t});
+  result.findings.push_back({"replay, error in position", "", found.observed, std::nan(""), "m", found.t});
   add("of it by rounding", found.rounding);
   add("of it by the integration", found.integration);
   add("of it by the loops' gaps", found.closure);
