@@ -9,8 +9,8 @@ namespace {
 
 /// So many instants are correlated with each other.
 constexpr Eigen::Index longest_block = 160;
-/// Least noise of efforts, as a share of them: rounding and the direct kinematics.
-constexpr double least = 1e-8;
+/// Least noise of efforts, as a share of them: what the ends of both low passes' windows leave out, 1.1e-8.
+double leastNoise() { return 2 * Kernel::passError(); }
 
 }  // namespace
 
@@ -40,7 +40,7 @@ EffortNoise::EffortNoise(const FilteredLog& filtered, const Comparison& comparis
   Vector6d samples;
   for (int k = 0; k < motor_count; ++k)
     samples(k) = plan.noise.efforts(k) * plan.noise.efforts(k) * gain +
-                 least * least * comparison.model.col(k).cwiseAbs2().mean() + 1e-200;
+                 leastNoise() * leastNoise() * comparison.model.col(k).cwiseAbs2().mean() + 1e-200;
   add(samples + comparison.numerical.cwiseAbs2());
 }
 

@@ -103,6 +103,8 @@ std::array<double, 3> sincOf(double a, double u) {
 
 }  // namespace
 
+double Kernel::passError() { return 2 * std::exp(-window_end * window_end / 2) / (pi * window_end * window_end); }
+
 int Kernel::halfLength(double cut, double step) {
   return static_cast<int>(std::ceil(window_end * windowDeviation(cut) / step));
 }
