@@ -18,7 +18,7 @@ struct LogColumn {
   int index = 0;                              ///< 0-based motor or entry of a vector
   double factor = 1;                          ///< factor to SI units, or to A
   std::size_t place = 0;                      ///< 0-based column of the file
-  std::string name;                           ///< name in the file
+  std::string name = {};                      ///< name in the file
   std::optional<Coordinate> coordinate = {};  ///< set for a leg's coordinate in the file; `index` is then the leg
 };
 
