@@ -6,7 +6,7 @@
 #include "base/text_source.h"
 #include "exchange/import_error.h"
 #include "exchange/read/readers.h"
-#include "exchange/recognise/recognise.h"
+#include "exchange/recognise/machine.h"
 #include "exchange/scenario_text.h"
 #include "model/scenario.h"
 

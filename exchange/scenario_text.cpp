@@ -78,10 +78,10 @@ std::string legText(const ImportedLeg& leg) {
   out += fmt::format("kind = \"{}\"\nactuated = [{}]\n", row.name, actuated(leg));
   out += fmt::format("base_point = {}\nbase_axis = {}\nplatform_point = {}\n", list(leg.base_point),
                      list(leg.base_axis), list(leg.platform_point));
-  if (leg.kind == LegKind::UPS)
+  if (row.isTelescopic())
     out += leg.stroke_from_file ? "# The lengths are the stroke of the file's limits: rod < d < rod + cylinder.\n"
                                 : "# The lengths are a stroke that was chosen: rod < d < rod + cylinder.\n";
-  out += linkText("proximal", leg.proximal, leg.kind == LegKind::PUS);
+  out += linkText("proximal", leg.proximal, row.hasCarriage());
   out += linkText("distal", leg.distal, false);
   if (row.knee != nullptr)
     out += fmt::format("knee = \"{}\"  # sign of {} at the file's initial pose\n",

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "exchange/recognise/imported_machine.h"
+#include "exchange/recognise/machine.h"
 
 namespace ursula::exchange {
 

@@ -5,8 +5,7 @@
 #include <set>
 
 #include "base/shown_text.h"
-#include "exchange/read/mjcf_closures.h"
-#include "exchange/read/mjcf_inertia.h"
+#include "exchange/read/mjcf_parts.h"
 #include "exchange/read/readers.h"
 
 namespace ursula::exchange {
@@ -245,7 +244,9 @@ class MjcfReader {
     const std::string limited = get("limited"), range = get("range");
     if (range.empty() || limited == "false" || (limited != "true" && !compiler_.auto_limits)) return;
     const std::vector<double> ends = numbersOf(element, range, 2, "range");
-    if (!(ends[0] < ends[1])) return;
+    if (ends[0] == 0 && ends[1] == 0) return;  // MuJoCo's default
+    if (!(ends[0] < ends[1]))
+      refuse(element, fmt::format("range {}, expected its first number below the second", range));
     joint.lower = inUnits(ends[0]);
     joint.upper = inUnits(ends[1]);
   }

@@ -1,4 +1,4 @@
-#include "exchange/read/mjcf_closures.h"
+#include "exchange/read/mjcf_parts.h"
 
 #include <fmt/format.h>
 
@@ -64,6 +64,9 @@ void joinBodies(const Element& element, const MjcfNamed& named, GraphJoint& join
   if (q.norm() > 1e-12) sayGap(joint.name, a * placed({v[0], v[1], v[2]}, q.normalized().toRotationMatrix()), b, graph);
 }
 
+const std::set<std::string> known_of_equality =
+    wordsOf("name class active body1 body2 site1 site2 anchor relpose torquescale solref solimp");
+
 void readEquality(const Element& element, const MjcfDefaults& defaults, const MjcfNamed& named, ModelGraph& graph) {
   const std::string kind = element.Name();
   const auto get = [&](const char* name) { return defaults.get(element, "", name, "equality"); };
@@ -79,6 +82,7 @@ void readEquality(const Element& element, const MjcfDefaults& defaults, const Mj
            fmt::format("couples what it names ({}), as a gear does, which a scenario has no words for, expected "
                        "connect or weld",
                        shown(kind)));
+  listUnknownAttributes(element, known_of_equality, graph.assumptions);
   GraphJoint joint;
   joint.name = name;
   joint.line = element.GetLineNum();
@@ -105,7 +109,10 @@ void readActuator(const Element& element, const MjcfDefaults& defaults, const Mj
            fmt::format("a {} that acts on {}, expected a motor, position, velocity or general actuator on a joint",
                        shown(kind), target.empty() ? "no joint" : "joint " + shown(target)));
   GraphJoint& joint = graph.joints[find(element, named.joints, target, "joint")];
-  if (!joint.driven) graph.motors.push_back(joint.name);
+  if (joint.driven)
+    graph.assumptions.push_back({"Several actuators drive this joint: its effort is their sum", joint.name, 1, "1"});
+  else
+    graph.motors.push_back(joint.name);
   joint.driven = true;
   const std::string gear = get("gear");
   const double ratio = gear.empty() ? 1 : numbersOf(element, gear, 0, "gear").at(0);

@@ -1,4 +1,4 @@
-#include "exchange/read/mjcf_inertia.h"
+#include "exchange/read/mjcf_parts.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "base/angles.h"
 #include "base/shown_text.h"
-#include "exchange/recognise/groups.h"
+#include "exchange/recognise/chains.h"
 
 namespace ursula::exchange {
 namespace {

@@ -1,4 +1,4 @@
-#include "exchange/read/mjcf_settings.h"
+#include "exchange/read/mjcf_parts.h"
 
 #include <fmt/format.h>
 

@@ -6,10 +6,8 @@
 #include <cmath>
 
 #include "base/shown_text.h"
-#include "exchange/read/drake.h"
 #include "exchange/read/readers.h"
-#include "exchange/read/sdf_frames.h"
-#include "exchange/read/sdf_values.h"
+#include "exchange/read/sdf_parts.h"
 
 namespace ursula::exchange {
 namespace {

@@ -1,4 +1,4 @@
-#include "exchange/read/sdf_frames.h"
+#include "exchange/read/sdf_parts.h"
 
 #include <fmt/format.h>
 

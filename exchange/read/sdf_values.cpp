@@ -1,7 +1,6 @@
-#include "exchange/read/sdf_values.h"
+#include "exchange/read/sdf_parts.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -59,6 +58,32 @@ void requirePlain(const Element& link, const Element& inertial) {
     if (pose != nullptr && !attribute(*pose, name).empty())
       refuse(link,
              fmt::format("{} in the <pose> of <inertial>, which SDF does not allow: that is always in the link", name));
+}
+
+/// URDF has attributes where SDF has text.
+std::string valueOf(const Element& element, const char* child, const char* of_urdf) {
+  const Element* found = element.FirstChildElement(child);
+  if (found == nullptr) return "";
+  const std::string value = attribute(*found, of_urdf);
+  return value.empty() ? textOf(*found) : value;
+}
+
+void addBall(const Element& element, ModelGraph& graph, const BodyByName& body) {
+  GraphJoint ball;
+  ball.name = attribute(element, "name").empty() ? fmt::format("drake:ball_constraint of line {}", element.GetLineNum())
+                                                 : attribute(element, "name");
+  ball.line = element.GetLineNum();
+  ball.kind = JointKind::ball;
+  ball.closure = true;
+  const auto side = [&](const char* name, const char* point, std::size_t& index, Vector3d& centre) {
+    const std::string named = valueOf(element, name, "name"), at = valueOf(element, point, "value");
+    if (named.empty() || at.empty()) refuse(element, fmt::format("no <{}> or no <{}>, expected both", name, point));
+    index = body(element, named);
+    centre = graph.bodies[index].frame * vectorOf(element, at, point);
+  };
+  side("drake:ball_constraint_body_A", "drake:ball_constraint_p_AP", ball.parent, ball.centre);
+  side("drake:ball_constraint_body_B", "drake:ball_constraint_p_BQ", ball.child, ball.centre_of_child);
+  graph.joints.push_back(ball);
 }
 
 }  // namespace
@@ -164,6 +189,26 @@ void refuseSdfIncludes(const Element& scope, std::vector<Assumption>& assumption
       refuse(include, fmt::format("includes {}, which is not fetched; put its <model> into this file (gz sdf -p FILE)",
                                   shown(uri)));
   });
+}
+
+void readDrakeConstraints(const Element& model, ModelGraph& graph, const BodyByName& body) {
+  eachChild(model, "drake:ball_constraint", [&](const Element& e) { addBall(e, graph, body); });
+  eachChild(model, nullptr, [](const Element& e) {
+    const std::string name = e.Name();
+    const bool couples = name.rfind("drake:", 0) == 0 && name.find("_constraint") != std::string::npos;
+    if (name == "drake:linear_bushing_rpy" || (couples && name != "drake:ball_constraint"))
+      refuse(e, "which a scenario has no words for");
+  });
+}
+
+double drakeRotorInertia(const Element& element) {
+  const std::string rotor = valueOf(element, "drake:rotor_inertia", "value");
+  const std::string gear = valueOf(element, "drake:gear_ratio", "value");
+  if (rotor.empty()) return 0;
+  const double ratio = gear.empty() ? 1 : numberOf(element, gear, "drake:gear_ratio");
+  const double inertia = numberOf(element, rotor, "drake:rotor_inertia");
+  if (inertia < 0) refuse(element, fmt::format("a rotor's inertia of {}, expected none below zero", inertia));
+  return inertia * ratio * ratio;
 }
 
 }  // namespace ursula::exchange

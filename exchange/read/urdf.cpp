@@ -10,11 +10,9 @@
 
 #include "base/nearest.h"
 #include "base/shown_text.h"
-#include "exchange/read/drake.h"
 #include "exchange/read/readers.h"
-#include "exchange/read/sdf_values.h"
-#include "exchange/read/urdf_closures.h"
-#include "exchange/read/urdf_extensions.h"
+#include "exchange/read/sdf_parts.h"
+#include "exchange/read/urdf_parts.h"
 
 namespace ursula::exchange {
 namespace {
@@ -37,7 +35,8 @@ Eigen::Isometry3d originOf(const Element& element) {
 
 const std::set<std::string> known_in_robot =
     wordsOf("link joint loop_joint material transmission ros2_control gazebo mujoco sensor frame");
-const std::set<std::string> known_in_link = wordsOf("inertial visual collision self_collision_checking contact sensor");
+const std::set<std::string> known_in_urdf_link =
+    wordsOf("inertial visual collision self_collision_checking contact sensor");
 
 class UrdfReader {
  public:
@@ -68,7 +67,7 @@ class UrdfReader {
       body.line = e.GetLineNum();
       if (!links_.emplace(body.name, graph_.bodies.size()).second)
         refuse(e, "a second link of that name, expected names of their own");
-      listUnknown(e, known_in_link, graph_.assumptions);
+      listUnknown(e, known_in_urdf_link, graph_.assumptions);
       graph_.bodies.push_back(body);
       link_elements_.push_back(&e);
     });

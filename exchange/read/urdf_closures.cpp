@@ -1,14 +1,14 @@
-#include "exchange/read/urdf_closures.h"
+#include "exchange/read/urdf_parts.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
+#include <sstream>
 
 #include "base/shown_text.h"
 #include "base/text_source.h"
-#include "exchange/read/drake.h"
-#include "exchange/read/small_yaml.h"
+#include "exchange/import_error.h"
+#include "exchange/read/sdf_parts.h"
 
 namespace ursula::exchange {
 namespace {
@@ -170,6 +170,33 @@ void passOver(ModelGraph& graph, const UrdfLinks& links, std::size_t first, cons
   }
 }
 
+/// Splits at brackets, commas, list dashes and white space; drops quotes.
+void appendWords(const std::string& text, std::vector<std::string>& out) {
+  std::string word;
+  char quote = 0;
+  const auto end = [&] {
+    if (!word.empty() && word != "-") out.push_back(word);
+    word.clear();
+  };
+  for (const char c : text) {
+    if (quote != 0) {
+      if (c == quote)
+        quote = 0;
+      else
+        word += c;
+    } else if (c == '\'' || c == '"') {
+      quote = c;
+    } else if (c == '#') {
+      break;
+    } else if (c == '[' || c == ']' || c == ',' || c == ' ' || c == '\t' || c == '\r') {
+      end();
+    } else {
+      word += c;
+    }
+  }
+  end();
+}
+
 }  // namespace
 
 void readUrdfClosures(const Element& robot, const std::filesystem::path& file, const UrdfLinks& links,
@@ -193,6 +220,35 @@ void readUrdfClosures(const Element& robot, const std::filesystem::path& file, c
   std::error_code none;
   if (!found() && std::filesystem::is_regular_file(yaml, none)) closer.yaml(yaml);
   if (!found()) closer.named();
+}
+
+std::vector<std::string> SmallYaml::list(const std::string& key) const {
+  const auto found = values.find(key);
+  return found == values.end() ? std::vector<std::string>() : found->second;
+}
+
+SmallYaml readSmallYaml(const std::string& text, const std::string& name) {
+  SmallYaml out;
+  std::istringstream lines(text);
+  std::string line, key;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const std::size_t from = line.find_first_not_of(" \t\r");
+    if (from == std::string::npos || line[from] == '#' || line.compare(0, 3, "---") == 0) continue;
+    if (line.find_first_of("{&*|>!") != std::string::npos)
+      throw ImportError(
+          fmt::format("{}:{}: '{}' is neither a list nor a word, expected `key: [a, b]`", name, number, shown(line)));
+    const std::size_t colon = line.find(':');
+    if (from == 0 && line[0] != '-' && line[0] != '[' && colon != std::string::npos) {
+      key = line.substr(0, colon);
+      out.values[key];
+      appendWords(line.substr(colon + 1), out.values[key]);
+    } else if (key.empty()) {
+      throw ImportError(fmt::format("{}:{}: '{}' is of no key, expected `key: [a, b]`", name, number, shown(line)));
+    } else {
+      appendWords(line, out.values[key]);
+    }
+  }
+  return out;
 }
 
 }  // namespace ursula::exchange

@@ -1,10 +1,10 @@
-#include "exchange/read/urdf_extensions.h"
+#include "exchange/read/urdf_parts.h"
 
 #include <fmt/format.h>
 
 #include "base/shown_text.h"
-#include "exchange/read/mjcf_inertia.h"
-#include "exchange/read/sdf_values.h"
+#include "exchange/read/mjcf_parts.h"
+#include "exchange/read/sdf_parts.h"
 
 namespace ursula::exchange {
 namespace {

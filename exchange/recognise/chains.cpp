@@ -98,7 +98,7 @@ std::string offeredLoops(const ModelGraph& graph, const Groups& groups) {
 }
 
 std::size_t findBase(const ModelGraph& graph, const Groups& groups, const Net& net, const ImportChoices& choices) {
-  if (!choices.base.empty()) return groups.named(graph, choices.base, "--base");
+  if (!choices.base.empty()) return groups.group_of[bodyNamed(graph, choices.base, "--base")];
   for (std::size_t i = 0; i < groups.groups.size(); ++i)
     if (groups.groups[i].fixed && !net.at(i).empty()) return i;
   const std::vector<std::size_t> hubs = net.hubs();
@@ -111,7 +111,7 @@ std::size_t findBase(const ModelGraph& graph, const Groups& groups, const Net& n
 std::size_t findPlatform(const ModelGraph& graph, const Groups& groups, const Net& net, const ImportChoices& choices,
                          std::size_t base) {
   if (!choices.platform.empty()) {
-    const std::size_t platform = groups.named(graph, choices.platform, "--platform");
+    const std::size_t platform = groups.group_of[bodyNamed(graph, choices.platform, "--platform")];
     if (platform == base)
       throw ImportError(
           fmt::format("--platform {}: is the base, expected the body that the legs carry", shown(choices.platform)));

@@ -1,4 +1,4 @@
-#include "exchange/recognise/groups.h"
+#include "exchange/recognise/chains.h"
 
 #include <fmt/format.h>
 
@@ -81,14 +81,13 @@ Groups::Groups(const ModelGraph& graph) : group_of(graph.bodies.size()) {
   }
 }
 
-std::size_t Groups::named(const ModelGraph& graph, const std::string& name, const std::string& option) const {
+std::size_t bodyNamed(const ModelGraph& graph, const std::string& name, const std::string& option) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < graph.bodies.size(); ++i) {
-    if (graph.bodies[i].name == name) return group_of[i];
-    names.push_back(graph.bodies[i].name);
+    if (graph.bodies[i].name == name) return i;
+    if (names.size() < 1000) names.push_back(graph.bodies[i].name);
   }
-  if (names.size() > 1000) names.resize(1000);
-  throw ImportError(fmt::format("{} {}: no such body{}", option, shown(name), didYouMean(name, names)));
+  throw ImportError(fmt::format("{}: no body '{}'{}", option, shown(name), didYouMean(name, names)));
 }
 
 }  // namespace ursula::exchange

@@ -1,4 +1,4 @@
-#include "exchange/recognise/leg_numbers.h"
+#include "exchange/recognise/legs.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,6 @@
 #include "base/angles.h"
 #include "base/shown_text.h"
 #include "exchange/import_error.h"
-#include "exchange/recognise/leg_dynamics.h"
-#include "exchange/recognise/link_numbers.h"
 
 namespace ursula::exchange {
 namespace {
@@ -42,7 +40,7 @@ class LegMaker {
   ImportedLeg make() {
     leg_.kind = shape_.kind;
     leg_.joints = shape_.place;
-    leg_.free_spin = shape_.has_inner_ball;
+    leg_.free_spin = shape_.inner_ball.has_value();
     B_ = joints_.back().inner;
     proximal_ = sumOf(task_, shape_.proximal);
     distal_ = sumOf(task_, shape_.distal);
@@ -65,7 +63,7 @@ class LegMaker {
     leg_.base_point = task_.base.inverse() * base_point_;
     leg_.base_axis = task_.base.linear().transpose() * u_;
     leg_.platform_point = task_.platform.inverse() * joints_.back().outer;
-    takeLegDynamics(task_, u_, proximal_frame_.linear(), distal_frame_.linear(), leg_, assumptions_);
+    takeLegDynamics(task_, grows_along_, leg_, assumptions_);
     sayGaps();
     return leg_;
   }
@@ -101,7 +99,7 @@ class LegMaker {
   }
 
   void makeUps() {
-    const bool ball = shape_.has_inner_ball;
+    const bool ball = leg_.free_spin;
     // With a ball at the base, joints_ are S, P, S: the slide is second.
     const Primitive& slide = joints_[ball ? 1 : 2];
     if (ball) {
@@ -126,6 +124,7 @@ class LegMaker {
     leg_.stroke_from_file = stroke.from_file;
     s_ = stroke.least;
     l_ = stroke.most - stroke.least;
+    grows_along_ = {-u_, x, e};
     proximal_frame_ = placedAt(A_, frameOf(x, e));
     distal_frame_ = placedAt(A_ + (d - s_) * e, frameOf(x, e));
   }
@@ -145,56 +144,53 @@ class LegMaker {
     if (!(u_.cross(B_ - A_).norm() > 1e-9 * task_.size)) refuseLeg("its ball lies on its first axis");
     const Vector3d x_of_leg = u_.cross(B_ - A_).dot(x) > 0 ? x : Vector3d(-x);
     leg_.knee_positive = along.dot(x_of_leg.cross(e)) < 0;
+    grows_along_ = {-u_, x_of_leg, x_of_leg};
     proximal_frame_ = placedAt(A_, frameOf(x_of_leg, e));
     distal_frame_ = placedAt(R_outer, frameOf(x_of_leg, along));
   }
 
   void makeRus() {
-    const bool ball = shape_.has_inner_ball;
     u_ = -joints_[0].axis;
     Vector3d C, C_outer;
-    middleJoint(ball, 0, C, C_outer);
+    middleJoint(C, C_outer);
     A_ = joints_[0].outer + u_ * u_.dot(C - joints_[0].outer);
     base_point_ = A_ + joints_[0].inner - joints_[0].outer;
     const Vector3d e = lengthAndDirection(C - A_, l_), along = lengthAndDirection(B_ - C_outer, s_);
     const Vector3d across = offAxis(along, u_);
     if (!(across.norm() > 1e-6)) refuseLeg("its rod lies along the crank's axis, expected it across");
     const Vector3d x_2 = u_.cross(across).normalized();
-    if (!ball) requireUniversalAlong(along);
+    if (!leg_.free_spin) requireUniversalAlong(along);
     leg_.knee_positive = across.dot(u_.cross(e)) < 0;
+    grows_along_ = {-u_, -u_, -x_2};
     proximal_frame_ = placedAt(A_, frameOf(u_.cross(e).normalized(), e));
     distal_frame_ = placedAt(C_outer, frameOf(x_2, along));
   }
 
   void makePus() {
-    const bool ball = shape_.has_inner_ball;
     u_ = joints_[0].axis;
     Vector3d C, C_outer;
-    middleJoint(ball, 0, C, C_outer);
+    middleJoint(C, C_outer);
     A_ = C;
     base_point_ = C + (joints_[0].inner - joints_[0].outer) - joint(0).position * u_;
     const Vector3d along = lengthAndDirection(B_ - C_outer, s_);
     const Vector3d across = offAxis(along, u_);
     if (!(across.norm() > 1e-6)) refuseLeg("its rod lies along the rail, expected it across");
-    if (!ball) requireUniversalAlong(along);
+    if (!leg_.free_spin) requireUniversalAlong(along);
     leg_.knee_positive = along.dot(u_) > 0;
     const Matrix3d to_world = task_.base.linear();
+    const Vector3d x = u_.cross(across).normalized();
+    grows_along_ = {u_, -u_, x};
     proximal_frame_ = placedAt(C, to_world * fixedFrame(to_world.transpose() * u_));
-    distal_frame_ = placedAt(C_outer, frameOf(u_.cross(across).normalized(), along));
+    distal_frame_ = placedAt(C_outer, frameOf(x, along));
   }
 
   /// The joint between crank or carriage and rod, from the side of either.
-  void middleJoint(bool ball, std::size_t before, Vector3d& inner, Vector3d& outer) const {
-    const Primitive& first = joints_[before + 1];
-    if (ball) {
-      inner = first.inner;
-      outer = first.outer;
-      return;
-    }
-    const Primitive& second = joints_[before + 2];
-    const Vector3d met = commonPerpendicular(first.outer, first.axis, second.inner, second.axis).at;
-    inner = met + first.inner - first.outer;
-    outer = met + second.outer - second.inner;
+  void middleJoint(Vector3d& inner, Vector3d& outer) const {
+    const Primitive &first = joints_[1], &second = joints_[2];
+    const Vector3d met =
+        leg_.free_spin ? first.inner : commonPerpendicular(first.outer, first.axis, second.inner, second.axis).at;
+    inner = leg_.free_spin ? first.inner : met + first.inner - first.outer;
+    outer = leg_.free_spin ? first.outer : met + second.outer - second.inner;
   }
 
   /// The universal joint's first axis is the crank's or the rail's; its second is perpendicular to the rod.
@@ -229,7 +225,7 @@ class LegMaker {
   }
 
   void makeLinks() {
-    const bool telescopic = leg_.kind == LegKind::UPS, carriage = leg_.kind == LegKind::PUS;
+    const bool telescopic = rowOf(leg_.kind).isTelescopic(), carriage = rowOf(leg_.kind).hasCarriage();
     leg_.proximal = linkOf(task_, proximal_, proximal_frame_, carriage ? 0 : l_, telescopic, assumptions_);
     leg_.distal = linkOf(task_, distal_, distal_frame_, s_, true, assumptions_);
     if (leg_.free_spin) {
@@ -260,6 +256,7 @@ class LegMaker {
   ImportedLeg leg_;
   Group proximal_, distal_;
   Vector3d A_ = Vector3d::Zero(), B_ = Vector3d::Zero(), base_point_ = Vector3d::Zero(), u_ = Vector3d::UnitX();
+  std::array<Vector3d, 3> grows_along_ = {};  ///< of the kind's coordinates, docs/conventions.md
   double l_ = 0, s_ = 0;
   Eigen::Isometry3d proximal_frame_ = Eigen::Isometry3d::Identity(), distal_frame_ = Eigen::Isometry3d::Identity();
 };

@@ -1,6 +1,7 @@
-#include "exchange/recognise/leg_shape.h"
+#include "exchange/recognise/legs.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -15,6 +16,30 @@ namespace {
 
 using Kind = Primitive::Kind;
 using Body = std::optional<std::size_t>;
+
+/// The joints of a kind of leg from the base, as a file has them: "RRPS" of U P S.
+struct KindOfChain {
+  explicit KindOfChain(LegKind of) : kind(of), universal(rowOf(of).joints_of_proximal == 2 ? 0 : 1) {
+    for (const Coordinate each : rowOf(of).coordinates) joints += slides(each) ? 'P' : 'R';
+    joints += 'S';
+    // A ball in place of U leaves the line from it to the other ball free to spin; in U R S the knee is off that line.
+    if (universal == 1 || rowOf(of).isTelescopic()) with_free_rod = std::string(joints).replace(universal, 2, "S");
+  }
+
+  LegKind kind;
+  std::size_t universal;  ///< index of the universal joint's first hinge
+  std::string joints, with_free_rod;
+};
+
+std::string spaced(const std::string& word) { return fmt::format("{}", fmt::join(word, " ")); }
+
+/// "U R S, U P S, R U S or P U S"
+std::string knownChains() {
+  std::string out;
+  for (std::size_t k = 0; k < leg_kind_count; ++k)
+    out += (k == 0 ? "" : k + 1 < leg_kind_count ? ", " : " or ") + spaced(leg_kinds[k].name);
+  return out;
+}
 
 /// A single-axis joint, or a ball from one joint or three hinges, with the body behind it.
 struct Token {
@@ -37,12 +62,17 @@ class Shaper {
     const std::string found = word();
     if (found == "SPRR")
       refuseLeg("is S P U from the base; the legs are U P S, and base and platform cannot be exchanged");
-    if (found == "SPS" || found == "RSS" || found == "PSS") return withFreeRod(found);
-    if (found == "RRPS" || found == "PRRS" || found == "RRRS") return withUniversal(found);
+    std::optional<KindOfChain> best;
+    for (std::size_t k = 0; k < leg_kind_count; ++k) {
+      const KindOfChain kind(static_cast<LegKind>(k));
+      if (found == kind.with_free_rod) return withFreeRod(kind);
+      if (found == kind.joints && (!best || badness(kind.universal) < badness(best->universal))) best = kind;
+    }
+    if (best) return withUniversal(*best);
     refuseLeg(
-        fmt::format("has the joints {} from the base, expected U P S, R U S, U R S or P U S (U: two hinges that "
-                    "meet at right angles, S: a ball or three hinges through one point)",
-                    spaced(found)));
+        fmt::format("has the joints {} from the base, expected {} (U: two hinges that meet at right angles, S: a ball "
+                    "or three hinges through one point)",
+                    spaced(found), knownChains()));
   }
 
  private:
@@ -54,12 +84,6 @@ class Shaper {
   std::string word() const {
     std::string out;
     for (const Token& token : tokens_) out += "RPS"[static_cast<int>(token.primitive.kind)];
-    return out;
-  }
-
-  static std::string spaced(const std::string& word) {
-    std::string out;
-    for (const char letter : word) out += (out.empty() ? "" : " ") + std::string(1, letter);
     return out;
   }
 
@@ -198,20 +222,15 @@ class Shaper {
     return shape_;
   }
 
-  LegShape withFreeRod(const std::string& found) {
-    shape_.kind = found == "SPS" ? LegKind::UPS : found == "RSS" ? LegKind::RUS : LegKind::PUS;
-    shape_.has_inner_ball = true;
-    shape_.inner_ball = found == "SPS" ? 0 : 1;
+  LegShape withFreeRod(const KindOfChain& kind) {
+    shape_.kind = kind.kind;
+    shape_.inner_ball = kind.universal;
     return finish(link(0), link(1));
   }
 
-  LegShape withUniversal(const std::string& found) {
-    std::size_t first = found == "PRRS" ? 1 : 0;
-    shape_.kind = found == "PRRS" ? LegKind::PUS : LegKind::UPS;
-    if (found == "RRRS") {
-      first = badness(1) < badness(0) ? 1 : 0;
-      shape_.kind = first == 1 ? LegKind::RUS : LegKind::URS;
-    }
+  LegShape withUniversal(const KindOfChain& kind) {
+    const std::size_t first = kind.universal;
+    shape_.kind = kind.kind;
     requireUniversal(first);
     if (tokens_[first].behind) noteCross(*tokens_[first].behind, meeting(first).at, false, first == 0);
     return first == 0 ? finish(link(1), link(2)) : finish(link(0), link(2));
@@ -256,23 +275,10 @@ class Shaper {
 
 }  // namespace
 
-CommonPerpendicular commonPerpendicular(const Vector3d& p, const Vector3d& along_p, const Vector3d& q,
-                                        const Vector3d& along_q) {
-  CommonPerpendicular out;
-  const Vector3d across = along_p.cross(along_q), from = q - p;
-  const double sine = across.norm(), cosine = along_p.dot(along_q);
-  out.angle = std::atan2(sine, std::abs(cosine));
-  if (sine < 1e-9) {
-    out.at = p + along_p * from.dot(along_p) / 2;
-    out.apart = from.cross(along_p).norm();
-    return out;
-  }
-  const double square = sine * sine;
-  const double on_p = (from.dot(along_p) - from.dot(along_q) * cosine) / square;
-  const double on_q = (from.dot(along_p) * cosine - from.dot(along_q)) / square;
-  out.at = (p + on_p * along_p + q + on_q * along_q) / 2;
-  out.apart = std::abs(from.dot(across)) / sine;
-  return out;
+std::optional<std::size_t> LegShape::jointOf(std::size_t coordinate) const {
+  if (!inner_ball || coordinate < *inner_ball) return coordinate;
+  if (coordinate < *inner_ball + 2) return {};
+  return coordinate - 1;
 }
 
 LegShape shapeOf(const ModelGraph& graph, const Groups& groups, const Chain& chain, double size,

@@ -1,7 +1,6 @@
-#include "exchange/recognise/link_numbers.h"
+#include "exchange/recognise/legs.h"
 
 #include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -31,7 +30,47 @@ double largestMoment(const Matrix3d& inertia) {
   return Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs().maxCoeff();
 }
 
+void takeCoordinate(const GraphJoint& from, Coordinate coordinate, std::size_t k, ImportedLeg& leg,
+                    std::vector<Assumption>& assumptions) {
+  leg.actuated[k] = from.driven;
+  leg.damping[k] = from.damping;
+  leg.friction[k] = from.friction;
+  leg.rotor_inertia[k] = from.rotor_inertia;
+  if (from.driven) leg.motors.push_back(from.name);
+  if (from.rotor_inertia != 0 && !from.driven)
+    throw ImportError(
+        fmt::format("joint {} has a rotor's inertia of {} (armature) and is not driven, which a scenario "
+                    "has no key for; without it, in the file and in your engine, the machine can be taken",
+                    shown(from.name), from.rotor_inertia),
+        from.line);
+  if (from.friction != 0 && from.smoothing_speed > 0)
+    leg.smoothing_speed = from.smoothing_speed;
+  else if (from.friction != 0)
+    assumptions.push_back({fmt::format("Coulomb friction is smoothed below 0.01 {}, of which the file says nothing",
+                                       slides(coordinate) ? "m/s" : "rad/s"),
+                           from.name, from.friction, slides(coordinate) ? "N" : "N·m"});
+}
+
 }  // namespace
+
+CommonPerpendicular commonPerpendicular(const Vector3d& p, const Vector3d& along_p, const Vector3d& q,
+                                        const Vector3d& along_q) {
+  CommonPerpendicular out;
+  const Vector3d across = along_p.cross(along_q), from = q - p;
+  const double sine = across.norm(), cosine = along_p.dot(along_q);
+  out.angle = std::atan2(sine, std::abs(cosine));
+  if (sine < 1e-9) {
+    out.at = p + along_p * from.dot(along_p) / 2;
+    out.apart = from.cross(along_p).norm();
+    return out;
+  }
+  const double square = sine * sine;
+  const double on_p = (from.dot(along_p) - from.dot(along_q) * cosine) / square;
+  const double on_q = (from.dot(along_p) * cosine - from.dot(along_q)) / square;
+  out.at = (p + on_p * along_p + q + on_q * along_q) / 2;
+  out.apart = std::abs(from.dot(across)) / sine;
+  return out;
+}
 
 Matrix3d snapped(const Matrix3d& inertia, double rounding, bool line_may_be_zero, const std::string& body, int line,
                  std::vector<Assumption>& assumptions) {
@@ -153,6 +192,53 @@ void lumpCrosses(const LegTask& task, const Vector3d& base_point, Group& proxima
                                                      : "rides on the first link's end"),
                            group.name, share, "1"});
   }
+}
+
+void takeLegDynamics(const LegTask& task, const std::array<Vector3d, 3>& grows_along, ImportedLeg& leg,
+                     std::vector<Assumption>& assumptions) {
+  const auto coordinates = rowOf(leg.kind).coordinates;
+  for (std::size_t k = 0; k < coordinates.size(); ++k) {
+    // Joints that a ball replaces have no dynamics of their own, as checked before.
+    const std::optional<std::size_t> at = task.shape.jointOf(k);
+    if (!at) continue;
+    const Primitive& primitive = task.shape.joints[*at];
+    const GraphJoint& joint = task.graph.joints[primitive.joint];
+    takeCoordinate(joint, coordinates[k], k, leg, assumptions);
+    if (joint.driven && !slides(coordinates[k]) && grows_along[k].dot(primitive.axis) < 0)
+      assumptions.push_back(
+          {fmt::format("The file's coordinate of this hinge grows against the scenario's {}: its effort has the other "
+                       "sign",
+                       nameOf(coordinates[k])),
+           joint.name, -1, "1"});
+  }
+}
+
+Stroke strokeOf(const LegTask& task, const Primitive& slide, const Vector3d& along, double length,
+                std::vector<Assumption>& assumptions) {
+  const GraphJoint& joint = task.graph.joints[slide.joint];
+  const bool grows = slide.axis.dot(along) > 0;
+  const double down = joint.lower - joint.position, up = joint.upper - joint.position;
+  Stroke out{length + (grows ? down : -up), length + (grows ? up : -down), false};
+  const bool limited = std::isfinite(out.least) || std::isfinite(out.most);
+  out.from_file = std::isfinite(out.least) && std::isfinite(out.most) && out.least > 0 && out.most > out.least;
+  if (!out.from_file) {
+    out.least = 2 * length / 3;
+    out.most = 4 * length / 3;
+    assumptions.push_back(
+        {fmt::format("The file {}: a third of the leg's length either way was taken",
+                     limited ? "limits this slide's stroke to no usable range" : "does not limit this slide's stroke"),
+         joint.name, length / 3, "m"});
+  } else if (!(out.least < length && length < out.most)) {
+    assumptions.push_back({"The initial pose lies outside the slide's limits, or at one; the stroke was widened",
+                           joint.name, std::max(out.least - length, length - out.most), "m"});
+    const double margin = 0.05 * (out.most - out.least);
+    if (!(out.least < length)) out.least = std::max(length - margin, length / 2);
+    if (!(length < out.most)) out.most = length + margin;
+  }
+  if (!grows)
+    assumptions.push_back(
+        {"The file's coordinate of this slide shortens the leg; d lengthens it", joint.name, -1, "1"});
+  return out;
 }
 
 }  // namespace ursula::exchange

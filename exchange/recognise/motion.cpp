@@ -1,4 +1,4 @@
-#include "exchange/recognise/motion.h"
+#include "exchange/recognise/machine.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "base/angles.h"
 #include "exchange/import_error.h"
 #include "exchange/leg_pose.h"
-#include "exchange/recognise/leg_numbers.h"
+#include "exchange/recognise/legs.h"
 #include "model/legs/leg_type.h"
 
 namespace ursula::exchange {

@@ -1,4 +1,4 @@
-#include "exchange/recognise/recognise.h"
+#include "exchange/recognise/machine.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,21 +11,10 @@
 #include "base/nearest.h"
 #include "base/shown_text.h"
 #include "exchange/import_error.h"
-#include "exchange/recognise/leg_numbers.h"
-#include "exchange/recognise/link_numbers.h"
-#include "exchange/recognise/motion.h"
+#include "exchange/recognise/legs.h"
 
 namespace ursula::exchange {
 namespace {
-
-std::size_t bodyNamed(const ModelGraph& graph, const std::string& name, const std::string& option) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < graph.bodies.size(); ++i) {
-    if (graph.bodies[i].name == name) return i;
-    if (names.size() < 1000) names.push_back(graph.bodies[i].name);
-  }
-  throw ImportError(fmt::format("{}: no body '{}'{}", option, shown(name), didYouMean(name, names)));
-}
 
 /// `--close A:B`: a ball joins the origins of two links' frames.
 void close(ModelGraph& graph, const std::vector<std::string>& pairs) {
@@ -161,15 +150,14 @@ class Recogniser {
     if (driven == 6) return;
     std::vector<std::string> names, usual;
     for (const LegShape& shape : shapes) {
-      const bool ball = shape.has_inner_ball;
       for (const Primitive& p : shape.joints)
         if (p.kind != Primitive::Kind::S) names.push_back(shown(graph_.joints[p.joint].name));
-      const std::size_t at = shape.kind == LegKind::UPS ? (ball ? 1 : 2) : 0;
-      usual.push_back(shown(graph_.joints[shape.joints[at].joint].name));
+      const Primitive& driven_as_a_rule = shape.joints[shape.jointOf(rowOf(shape.kind).actuated).value()];
+      usual.push_back(shown(graph_.joints[driven_as_a_rule.joint].name));
     }
     throw ImportError(
-        fmt::format("{} driven joints, expected six: {} --actuated J,… names them. Candidates: {}{}", driven,
-                    driven == 0 ? fmt::format("{} says nothing of motors here;", upper()) : "", fmt::join(names, ", "),
+        fmt::format("{} driven joints, expected six:{} --actuated J,… names them. Candidates: {}{}", driven,
+                    driven == 0 ? fmt::format(" {} says nothing of motors here;", upper()) : "", fmt::join(names, ", "),
                     usual.size() == 6 ? fmt::format(". As a rule: --actuated {}", fmt::join(usual, ",")) : ""));
   }
 
@@ -210,7 +198,7 @@ class Recogniser {
     for (std::size_t i = 0; i < chains.legs.size(); ++i)
       for (const Primitive& p : chains.legs[i].primitives) {
         const GraphJoint& joint = graph_.joints[p.joint];
-        const bool kept = machine_.legs[i].kind == LegKind::UPS && p.kind == Primitive::Kind::P;
+        const bool kept = rowOf(machine_.legs[i].kind).isTelescopic() && p.kind == Primitive::Kind::P;
         if (!kept && (std::isfinite(joint.lower) || std::isfinite(joint.upper))) {
           names.push_back(shown(joint.name));
           if (!(joint.lower <= joint.position && joint.position <= joint.upper))

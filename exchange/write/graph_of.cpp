@@ -1,7 +1,6 @@
-#include "exchange/write/graph_of.h"
+#include "exchange/write/export.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -62,19 +61,21 @@ class Builder {
     std::size_t body = 0;
     for (std::size_t k = 0; k < at.joints.size(); ++k) {
       const bool to_proximal = k + 1 == before_proximal, to_distal = k + 1 == at.joints.size();
+      const bool in_universal = !to_proximal && !to_distal;
+      if (in_universal && leg.spins) continue;  // one ball instead of both hinges
       const Eigen::Isometry3d& frame = k < before_proximal ? at.proximal : at.distal;
       const std::size_t next = to_proximal ? addLink(name + "_proximal", frame, leg.proximal, leg.proximalCenter())
                                : to_distal ? addLink(name + "_distal", frame, leg.distal, leg.distalCenter())
                                            : addBody(name + "_cross", frame, 0, {});
-      addCoordinate(index, k, at.joints[k], body, next);
+      if (leg.spins && !slides(at.joints[k].coordinate) && k > 0)
+        addBall(name + "_inner_ball", body, next, at.joints[k].centre, false);
+      else
+        addCoordinate(index, k, at.joints[k], body, next);
       if (to_proximal) draw(next, frame.translation(), at.far_end, 0.02);
       if (to_distal) draw(next, frame.translation(), at.tip, 0.014);
       body = next;
     }
     tips_.push_back({body, at.tip});
-    if (leg.spins)
-      note("The free spin about the line is held, and the moment about it left out: the motion is the same", name,
-           machine_.given().legs[static_cast<std::size_t>(index)].distal.inertia(2, 2), "kg m^2");
     if (rowOf(leg.kind).hasCarriage() && leg.proximal.length != 0)
       note("The carriage's length is for drawing and is left out", name, leg.proximal.length, "m");
   }
@@ -118,16 +119,20 @@ class Builder {
     Vector3d centre = Vector3d::Zero();
     for (const auto& tip : tips_) centre += tip.second / static_cast<double>(tips_.size());
     for (std::size_t i = 0; i < tips_.size(); ++i) {
-      GraphJoint ball;
-      ball.name = fmt::format("leg_{}_ball", i + 1);
-      ball.kind = JointKind::ball;
-      ball.parent = tips_[i].first;
-      ball.child = body;
-      ball.centre = ball.centre_of_child = tips_[i].second;
-      ball.closure = i > 0;
-      out_.graph.joints.push_back(ball);
+      addBall(fmt::format("leg_{}_ball", i + 1), tips_[i].first, body, tips_[i].second, i > 0);
       draw(body, centre, tips_[i].second, 0.02);
     }
+  }
+
+  void addBall(const std::string& name, std::size_t parent, std::size_t child, const Vector3d& centre, bool closure) {
+    GraphJoint ball;
+    ball.name = name;
+    ball.kind = JointKind::ball;
+    ball.parent = parent;
+    ball.child = child;
+    ball.centre = ball.centre_of_child = centre;
+    ball.closure = closure;
+    out_.graph.joints.push_back(ball);
   }
 
   void draw(std::size_t body, const Vector3d& from, const Vector3d& to, double slenderness) {
@@ -160,5 +165,45 @@ class Builder {
 }  // namespace
 
 MachineModel modelOf(const Scenario& scenario) { return Builder(scenario).take(); }
+
+const GraphJoint* carrierOf(const ModelGraph& graph, std::size_t body) {
+  const auto found = std::find_if(graph.joints.begin(), graph.joints.end(),
+                                  [body](const GraphJoint& joint) { return !joint.closure && joint.child == body; });
+  return found == graph.joints.end() ? nullptr : &*found;
+}
+
+std::vector<TreeBody> treeBodiesOf(const ModelGraph& graph) {
+  std::vector<TreeBody> out;
+  for (std::size_t body = 0; body < graph.bodies.size(); ++body) {
+    if (graph.bodies[body].fixed || graph.bodies[body].mass == 0) continue;
+    TreeBody tree_body{body, body, {}};
+    do {
+      const GraphJoint* joint = carrierOf(graph, tree_body.parent);
+      if (joint == nullptr) break;
+      tree_body.joints.insert(tree_body.joints.begin(), static_cast<std::size_t>(joint - graph.joints.data()));
+      tree_body.parent = joint->parent;
+    } while (!graph.bodies[tree_body.parent].fixed && graph.bodies[tree_body.parent].mass == 0);
+    out.push_back(tree_body);
+  }
+  return out;
+}
+
+WrittenModel exportScenario(const Scenario& scenario, ModelFormat format) {
+  const MachineModel machine = modelOf(scenario);
+  WrittenModel out;
+  out.notes = machine.graph.assumptions;
+  switch (format) {
+    case ModelFormat::sdf:
+      out.text = sdfText(machine, out.notes);
+      break;
+    case ModelFormat::mjcf:
+      out.text = mjcfText(machine, out.notes);
+      break;
+    case ModelFormat::urdf:
+      out.text = urdfText(machine, out.notes);
+      break;
+  }
+  return out;
+}
 
 }  // namespace ursula::exchange

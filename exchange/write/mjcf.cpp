@@ -61,7 +61,8 @@ class MjcfWriter {
   }
 
   bool floats(const TreeBody& tree_body) const {
-    return tree_body.joints.size() == 1 && graph_.joints[tree_body.joints.front()].kind == JointKind::ball;
+    return tree_body.child + 1 == graph_.bodies.size() &&
+           graph_.joints[tree_body.joints.front()].kind == JointKind::ball;
   }
 
   void addChildren(const Xml& xml, std::size_t parent) {
@@ -92,10 +93,12 @@ class MjcfWriter {
   static void addJoint(const Xml& xml, const GraphJoint& joint, const Eigen::Isometry3d& frame) {
     const Xml element = xml.add("joint");
     element.with("name", joint.name)
-        .with("type", joint.kind == JointKind::prismatic ? "slide" : "hinge")
-        .with("pos", Vector3d(frame.inverse() * joint.centre_of_child))
-        .with("axis", Vector3d(frame.linear().transpose() * joint.axis[0]))
-        .with("ref", joint.position);
+        .with("type", joint.kind == JointKind::prismatic ? "slide"
+                      : joint.kind == JointKind::ball    ? "ball"
+                                                         : "hinge")
+        .with("pos", Vector3d(frame.inverse() * joint.centre_of_child));
+    if (joint.kind == JointKind::ball) return;
+    element.with("axis", Vector3d(frame.linear().transpose() * joint.axis[0])).with("ref", joint.position);
     if (std::isfinite(joint.lower) && std::isfinite(joint.upper))
       element.with("limited", "true").with("range", numberText(joint.lower) + " " + numberText(joint.upper));
     if (joint.damping != 0) element.with("damping", joint.damping);
@@ -128,7 +131,7 @@ class MjcfWriter {
   /// The anchor is in the platform; MuJoCo takes the leg's point from the file's pose.
   void addClosures(const Xml& xml) const {
     for (const GraphJoint& joint : graph_.joints) {
-      if (joint.kind != JointKind::ball) continue;
+      if (joint.kind != JointKind::ball || joint.child + 1 != graph_.bodies.size()) continue;
       const GraphBody& platform = graph_.bodies[joint.child];
       xml.add("connect")
           .with("name", joint.name)

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "exchange/leg_pose.h"
-#include "exchange/write/graph_of.h"
+#include "exchange/write/export.h"
 #include "exchange/write/xml_text.h"
 #include "tests/exchange/export_support.h"
 

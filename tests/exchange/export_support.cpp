@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "exchange/write/graph_of.h"
+#include "exchange/write/export.h"
 #include "nocsolver/noc/noc.h"
 
 namespace ursula::exchange {

@@ -3,6 +3,8 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <unordered_map>
+#include <vector>
 
 #include "exchange/read/xml.h"
 
@@ -49,5 +51,35 @@ void readMjcfOptions(const Element& root, ModelGraph& graph);
 /// Orientation by quat, axisangle, euler, xyaxes or zaxis. Throws ImportError if more than one is given.
 Matrix3d mjcfOrientation(const Element& element, const MjcfCompiler& compiler,
                          const std::function<std::string(const char*)>& get);
+
+/// Adds a geom's mass to a body. `at` is the geom's parent frame in the world; `get` returns its attributes. Throws
+/// ImportError for shapes whose inertia is in another file.
+void addGeom(const Element& geom, const MjcfCompiler& compiler, const Eigen::Isometry3d& at,
+             const std::function<std::string(const char*)>& get, GraphBody& body);
+
+/// Reads an <inertial>; `at` is the body's frame in the world.
+void takeInertial(const Element& inertial, const MjcfCompiler& compiler, const Eigen::Isometry3d& at, GraphBody& body);
+
+/// Applies balanceinertia, boundmass and boundinertia, and lists what they change. Throws ImportError for an invalid
+/// tensor.
+void boundInertia(const Element& element, const MjcfCompiler& compiler, GraphBody& body,
+                  std::vector<Assumption>& assumptions);
+
+struct MjcfSite {
+  std::size_t body = 0;
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();  ///< in the world
+};
+
+/// What the tree gave names to: indices of the graph's bodies and joints.
+struct MjcfNamed {
+  std::unordered_map<std::string, std::size_t> bodies, joints;
+  std::unordered_map<std::string, MjcfSite> sites;
+};
+
+/// Adds the joints of <equality>, which close the tree's loops. Throws ImportError.
+void readMjcfClosures(const Element& root, const MjcfDefaults& defaults, const MjcfNamed& named, ModelGraph& graph);
+
+/// Marks the joints that <actuator> drives. Throws ImportError.
+void readMjcfActuators(const Element& root, const MjcfDefaults& defaults, const MjcfNamed& named, ModelGraph& graph);
 
 }  // namespace ursula::exchange

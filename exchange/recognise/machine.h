@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "exchange/model_graph.h"
+#include "exchange/import.h"
 #include "model/leg_kind.h"
 
 namespace ursula::exchange {
@@ -51,5 +51,17 @@ struct ImportedMachine {
   double motion_radius = 0;          ///< m
   std::vector<Assumption> assumptions;
 };
+
+/// Finds base, platform and legs in a model and reports the assumptions. Throws ImportError with the names of bodies
+/// and joints that no supported machine has.
+ImportedMachine recognise(ModelGraph graph, const ImportChoices& choices);
+
+/// The share of a leg's range, up to 1, that is left at a pose of M in B. It is not positive if the leg cannot take the
+/// pose.
+double reserveOf(const ImportedLeg& leg, const ImportedPose& pose);
+
+/// Proposes a small helix of the platform's origin from the initial pose, with constant orientation. It is as large as
+/// the legs allow, at most a twentieth of `size`. Throws ImportError if they cannot take the initial pose.
+void proposeMotion(ImportedMachine& machine, double size);
 
 }  // namespace ursula::exchange

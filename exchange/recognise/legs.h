@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exchange/recognise/chains.h"
+#include "exchange/recognise/machine.h"
+
+namespace ursula::exchange {
+
+/// The crosses within a universal joint or a ball: bodies that belong to a joint and are no links.
+struct Cross {
+  std::size_t group = 0;
+  enum class Rides { base, proximal, platform } rides = Rides::base;  ///< the body that gets its mass
+  Vector3d centre = Vector3d::Zero();
+};
+
+/// Smaller values, relative to the machine's size or in rad, are rounding of a file's digits and not reported.
+constexpr double worth_saying = 1e-9;
+
+/// A recognised chain: three single-axis joints and a ball.
+struct LegShape {
+  LegKind kind = LegKind::UPS;
+  std::string place;  ///< its joints, for messages
+  /// The three coordinates of the kind, then the ball; a ball in place of the universal joint is one instead of two.
+  std::vector<Primitive> joints;
+  std::optional<std::size_t> inner_ball;      ///< index in `joints` of that ball, if the rod is free to spin
+  std::vector<std::size_t> proximal, distal;  ///< groups
+  std::vector<std::size_t> spinning;          ///< groups among them that spin alone about the line on a hinge
+  std::vector<Cross> crosses;
+  std::vector<Assumption> assumptions;  ///< the used part of the tolerance
+
+  /// Index in `joints` of one of the kind's coordinates; nothing if the inner ball replaces it.
+  std::optional<std::size_t> jointOf(std::size_t coordinate) const;
+};
+
+/// Finds the universal and ball joints among the primitives. `size` is the machine's, m. Throws ImportError with the
+/// joints found instead, and their distances and angles.
+LegShape shapeOf(const ModelGraph& graph, const Groups& groups, const Chain& chain, double size,
+                 const ImportChoices& choices);
+
+/// The midpoint where two lines are nearest, and their distance there.
+struct CommonPerpendicular {
+  Vector3d at = Vector3d::Zero();
+  double apart = 0;
+  double angle = 0;  ///< angle between the lines, rad, in [0, π/2]
+};
+CommonPerpendicular commonPerpendicular(const Vector3d& p, const Vector3d& along_p, const Vector3d& q,
+                                        const Vector3d& along_q);
+
+/// Input for the numbers of a leg.
+struct LegTask {
+  const ModelGraph& graph;
+  const Groups& groups;
+  const LegShape& shape;
+  const ImportChoices& choices;
+  double size;                 ///< size of the machine, m
+  Eigen::Isometry3d base;      ///< B in the world
+  Eigen::Isometry3d platform;  ///< M in the world
+};
+
+/// Returns the leg in the scenario's terms, measured on its own bodies at the initial pose. Throws ImportError if it
+/// lacks the geometry of its kind. Adds masses of crosses on the platform to `platform`.
+ImportedLeg legOf(const LegTask& task, Group& platform, std::vector<Assumption>& assumptions);
+
+/// F̂ = [x̂, û, ẑ] of docs/legs.md.
+Matrix3d fixedFrame(const Vector3d& u);
+
+/// Copies friction, motors and rotors to the coordinates of a leg. The scenario's coordinates grow about or along the
+/// axes `grows_along`, in the world; says where a motor's coordinate in the file grows the other way. Throws
+/// ImportError for a rotor without a motor.
+void takeLegDynamics(const LegTask& task, const std::array<Vector3d, 3>& grows_along, ImportedLeg& leg,
+                     std::vector<Assumption>& assumptions);
+
+/// The lengths of a telescopic leg between which it may move, m.
+struct Stroke {
+  double least = 0, most = 0;
+  bool from_file = false;  ///< else a third of the leg's length either way
+};
+
+/// Reads the stroke from a slide's limits. The leg's line is `along`, its length at the initial pose is `length`.
+Stroke strokeOf(const LegTask& task, const Primitive& slide, const Vector3d& along, double length,
+                std::vector<Assumption>& assumptions);
+
+/// Returns a physically possible tensor if only the rounding of the file's digits makes it impossible. With
+/// `line_may_be_zero` the third entry may be zero. Throws ImportError for larger errors.
+Matrix3d snapped(const Matrix3d& inertia, double rounding, bool line_may_be_zero, const std::string& body, int line,
+                 std::vector<Assumption>& assumptions);
+
+/// Combines bodies into one link. `frame` is in the world, with its origin at the link's first end and its third axis
+/// along it.
+ImportedLink linkOf(const LegTask& task, const Group& link, const Eigen::Isometry3d& frame, double length,
+                    bool line_may_be_zero, std::vector<Assumption>& assumptions);
+
+/// Makes `link` exactly round with `keep_moment`, as `spin = "free"` asks; else removes from it the moment about the
+/// line of a freely spinning body, at zero rate. Throws ImportError if that changes the dynamics: unequal transverse
+/// moments, a mass centre off the line.
+void freeSpin(const LegTask& task, const Group& body, const Eigen::Isometry3d& frame, bool keep_moment,
+              ImportedLink& link, std::vector<Assumption>& assumptions);
+
+/// Reports the loss from the joints' crosses as a share of the leg's moments; adds their masses to the bodies they ride
+/// on.
+void lumpCrosses(const LegTask& task, const Vector3d& base_point, Group& proximal, const Group& distal, Group& platform,
+                 std::vector<Assumption>& assumptions);
+
+}  // namespace ursula::exchange
