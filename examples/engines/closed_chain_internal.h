@@ -1,7 +1,8 @@
 #pragma once
 
-// Efforts of a machine with closed loops, asked of MuJoCo: trees of hinges and slides, a free platform, and a <connect>
-// for each loop. With the coordinates q of all joints, the gaps g of the loops and G = [G_L G_P] = ∂g/∂q,
+// Efforts of a machine with closed loops, asked of MuJoCo: trees of hinges, slides and balls, a free platform, and a
+// <connect> for each loop. A rod between two balls is free to spin; it is kept from it, by the smallest rates. With the
+// coordinates q of all joints, the gaps g of the loops and G = [G_L G_P] = ∂g/∂q,
 //
 //   G_L q̇_L = −G_P q̇_P                                                          (1)
 //   G_L q̈_L = −G_P q̈_P − Ġq̇                                                     (2)
@@ -13,6 +14,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -37,7 +39,7 @@ class Machine {
     platform_ = model_->jnt_dofadr[free_];
     for (int dof = 0; dof < model_->nv; ++dof)
       if (dof < platform_ || dof >= platform_ + 6) legs_.push_back(dof);
-    if (static_cast<int>(legs_.size()) != gaps()) throw std::runtime_error("expected as many gaps as leg coordinates");
+    if (static_cast<int>(legs_.size()) < gaps()) throw std::runtime_error("expected as many leg coordinates as gaps");
   }
 
   mjModel& model() { return *model_; }
@@ -84,7 +86,7 @@ class Machine {
     gap();
     setLegs(data_->qvel, solveLegs(Eigen::VectorXd::Zero(gaps()), rates, false), rates);
     mj_comVel(model_.get(), data_.get());
-    setLegs(data_->qacc, Eigen::VectorXd::Zero(gaps()), Eigen::VectorXd::Zero(6));
+    setLegs(data_->qacc, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(legs_.size())), Eigen::VectorXd::Zero(6));
     bias_ = gapAcceleration();
     if (recipe == Recipe::no_bias) bias_.setZero();
     setLegs(data_->qacc, solveLegs(-bias_, accelerations, false), accelerations);
@@ -137,21 +139,23 @@ class Machine {
     return Eigen::Map<const Eigen::Vector3d>(data_->xpos + 3 * body) + R * anchor;
   }
 
-  /// x of G_L x = right − G_P free; added to the coordinates where `step`.
+  /// The smallest x of G_L x = right − G_P free; added to the coordinates where `step`.
   Eigen::VectorXd solveLegs(const Eigen::VectorXd& right, const Eigen::VectorXd& free, bool step) {
     const Eigen::MatrixXd G = jacobian();
-    Eigen::MatrixXd G_L(gaps(), gaps());
-    for (int k = 0; k < gaps(); ++k) G_L.col(k) = G.col(legs_[static_cast<std::size_t>(k)]);
-    const Eigen::VectorXd x = G_L.partialPivLu().solve(right - G.middleCols(platform_, 6) * free);
-    for (int k = 0; step && k < gaps(); ++k) {
-      const int joint = model_->dof_jntid[legs_[static_cast<std::size_t>(k)]];
-      data_->qpos[model_->jnt_qposadr[joint]] += x(k);
-    }
+    Eigen::MatrixXd G_L(gaps(), legs_.size());
+    for (Eigen::Index k = 0; k < G_L.cols(); ++k) G_L.col(k) = G.col(legs_[static_cast<std::size_t>(k)]);
+    const Eigen::VectorXd wanted = right - G.middleCols(platform_, 6) * free;
+    const Eigen::VectorXd x = G_L.rows() == G_L.cols() ? Eigen::VectorXd(G_L.partialPivLu().solve(wanted))
+                                                       : G_L.completeOrthogonalDecomposition().solve(wanted);
+    if (!step) return x;
+    Eigen::VectorXd all(model_->nv);
+    setLegs(all.data(), x, Eigen::VectorXd::Zero(6));
+    mj_integratePos(model_.get(), data_->qpos, all.data(), 1);
     return x;
   }
 
   void setLegs(double* to, const Eigen::VectorXd& of_legs, const Eigen::VectorXd& of_platform) {
-    for (int k = 0; k < gaps(); ++k) to[legs_[static_cast<std::size_t>(k)]] = of_legs(k);
+    for (std::size_t k = 0; k < legs_.size(); ++k) to[legs_[k]] = of_legs(static_cast<Eigen::Index>(k));
     Eigen::Map<Eigen::VectorXd>(to + platform_, 6) = of_platform;
   }
 

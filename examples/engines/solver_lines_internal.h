@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -73,9 +74,15 @@ inline Efforts effortsOf(Recipe recipe, const Eigen::MatrixXd& G, const Eigen::M
   if (recipe == Recipe::least_squares)
     return {S.transpose() * (f - G.transpose() * (G * G.transpose()).ldlt().solve(G * f)), {}};
   Eigen::MatrixXd unknown(G.cols(), G.rows() + S.cols());
-  if (unknown.rows() != unknown.cols()) throw std::runtime_error("expected as many motors as the machine has freedoms");
+  if (unknown.rows() < unknown.cols())
+    throw std::runtime_error("expected no more motors than the machine has freedoms");
   unknown << G.transpose(), S;
-  const Eigen::VectorXd found = unknown.partialPivLu().solve(f);
+  const bool square = unknown.rows() == unknown.cols();
+  // Free rods leave rows over, which hold by themselves.
+  const Eigen::VectorXd found =
+      square ? Eigen::VectorXd(unknown.partialPivLu().solve(f)) : unknown.colPivHouseholderQr().solve(f);
+  if (!square && (unknown * found - f).norm() > 1e-9 * f.norm())
+    throw std::runtime_error("expected as many motors as the machine has freedoms, but for rods that spin");
   return {found.tail(S.cols()), found.head(G.rows())};
 }
 

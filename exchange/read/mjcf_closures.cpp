@@ -64,7 +64,9 @@ void joinBodies(const Element& element, const MjcfNamed& named, GraphJoint& join
   if (q.norm() > 1e-12) sayGap(joint.name, a * placed({v[0], v[1], v[2]}, q.normalized().toRotationMatrix()), b, graph);
 }
 
-const std::set<std::string> known_of_equality =
+const std::set<std::string> known_of_connect =
+    wordsOf("name class active body1 body2 site1 site2 anchor solref solimp");
+const std::set<std::string> known_of_weld =
     wordsOf("name class active body1 body2 site1 site2 anchor relpose torquescale solref solimp");
 
 void readEquality(const Element& element, const MjcfDefaults& defaults, const MjcfNamed& named, ModelGraph& graph) {
@@ -82,7 +84,7 @@ void readEquality(const Element& element, const MjcfDefaults& defaults, const Mj
            fmt::format("couples what it names ({}), as a gear does, which a scenario has no words for, expected "
                        "connect or weld",
                        shown(kind)));
-  listUnknownAttributes(element, known_of_equality, graph.assumptions);
+  listUnknownAttributes(element, kind == "weld" ? known_of_weld : known_of_connect, graph.assumptions);
   GraphJoint joint;
   joint.name = name;
   joint.line = element.GetLineNum();

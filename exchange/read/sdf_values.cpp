@@ -164,8 +164,9 @@ void takeRubbing(const Element& joint_element, const Element& dynamics, TextOfWo
 void listPlugins(const Element& element, const std::string& of, std::vector<Assumption>& assumptions) {
   eachChild(element, "plugin", [&](const Element& e) {
     const std::string file = attribute(e, "filename");
-    if (file.find("mimic") != std::string::npos)
-      refuse(e, fmt::format("{} lets a joint follow another, which a scenario has no words for", shown(file)));
+    for (const char* word : {"mimic", "spring"})
+      if (file.find(word) != std::string::npos)
+        refuse(e, fmt::format("{}: what it does to joints ({}) is what a scenario has no words for", shown(file), word));
     assumptions.push_back(
         {fmt::format("The plugin {} is left out, with the forces that it may bring", shown(file)), of, 0, "1"});
   });

@@ -62,13 +62,21 @@ class Net {
   }
 
   std::string names(const std::vector<std::size_t>& groups) const {
-    std::vector<std::string> out;
-    for (std::size_t i = 0; i < groups.size() && i < 12; ++i) out.push_back(name(groups[i]));
-    if (groups.size() > 12) out.push_back(fmt::format("… {} more", groups.size() - 12));
-    return fmt::format("{}", fmt::join(out, ", "));
+    return listed(groups, [this](std::size_t group) { return name(group); });
+  }
+  /// The bodies that fixed joints hold together.
+  std::string bodiesOf(std::size_t group) const {
+    return listed(groups_.groups[group].bodies, [this](std::size_t body) { return shown(graph_.bodies[body].name); });
   }
 
  private:
+  template <class Name>
+  static std::string listed(const std::vector<std::size_t>& indices, const Name& name_of) {
+    std::vector<std::string> out;
+    for (std::size_t i = 0; i < indices.size() && i < 12; ++i) out.push_back(name_of(indices[i]));
+    if (indices.size() > 12) out.push_back(fmt::format("… {} more", indices.size() - 12));
+    return fmt::format("{}", fmt::join(out, ", "));
+  }
   bool isEnd(std::size_t i) const {
     return edges_[i].size() == 1 && !groups_.groups[i].fixed && groups_.groups[i].isFrame();
   }
@@ -122,10 +130,11 @@ std::size_t findPlatform(const ModelGraph& graph, const Groups& groups, const Ne
   if (hubs.size() == 1) return hubs[0];
   if (hubs.empty())
     throw ImportError(
-        fmt::format("no platform: no body but the base, {}, has three joints, expected one that three to "
-                    "six legs carry; {}",
-                    net.name(base),
-                    graph.format == "urdf" ? "URDF is a tree" + offeredLoops(graph, groups) : "are its loops closed?"));
+        fmt::format("no platform: no body but those of the base, {}, has three joints, expected one that three to six "
+                    "legs carry; {}",
+                    net.bodiesOf(base),
+                    graph.format == "urdf" ? "URDF is a tree" + offeredLoops(graph, groups)
+                                           : "are its loops closed, and has the platform a joint of its own?"));
   throw ImportError(
       fmt::format("more than one body has three joints or more: {}; --platform BODY names the one "
                   "that the legs carry",
@@ -204,9 +213,15 @@ bool holdsNothing(const ModelGraph& graph, const Groups& groups, const Chain& ch
   return freedoms == 6 && slides == 3;
 }
 
-std::size_t firstJoint(const Chain& chain) {
-  std::size_t first = chain.primitives[0].joint;
-  for (const Primitive& primitive : chain.primitives) first = std::min(first, primitive.joint);
+/// The place of a leg: that of its first motor among the file's or the user's, then that of its first joint. Efforts
+/// go leg by leg, so they come in the order of the motors.
+std::pair<std::size_t, std::size_t> placeOf(const ModelGraph& graph, const Chain& chain) {
+  const auto begin = graph.motors.begin(), end = graph.motors.end();
+  std::pair<std::size_t, std::size_t> first(graph.motors.size(), graph.joints.size());
+  for (const Primitive& primitive : chain.primitives) {
+    const auto motor = std::find(begin, end, graph.joints[primitive.joint].name);
+    first = {std::min(first.first, static_cast<std::size_t>(motor - begin)), std::min(first.second, primitive.joint)};
+  }
   return first;
 }
 
@@ -263,7 +278,7 @@ Chains findChains(const ModelGraph& graph, const Groups& groups, const ImportCho
     throw ImportError(fmt::format("{} joints at the base, {}, and {} at the platform, {}, expected one a leg at either",
                                   count, net.name(out.base), arriving, net.name(out.platform)));
   std::sort(out.legs.begin(), out.legs.end(),
-            [](const Chain& a, const Chain& b) { return firstJoint(a) < firstJoint(b); });
+            [&graph](const Chain& a, const Chain& b) { return placeOf(graph, a) < placeOf(graph, b); });
   sayWhatIsApart(groups, out, assumptions);
   return out;
 }

@@ -59,7 +59,7 @@ struct Chain {
 
 struct Chains {
   std::size_t base = 0, platform = 0;  ///< groups
-  std::vector<Chain> legs;             ///< in the order of their first joints in the file
+  std::vector<Chain> legs;  ///< in the order of their motors, if the file or the user names them, then of their joints
 };
 
 /// Throws ImportError with the bodies and joints that prevent it.

@@ -19,7 +19,8 @@ namespace {
 
 constexpr int waypoint_count = 13, tried_per_motion = 97;
 constexpr double least_regular = 1e-5;  // below it rounding hides the sign
-constexpr double duration = 3.0;        // s, as for the paper's helix
+constexpr double regular_enough = 1e-3;
+constexpr double duration = 3.0;  // s, as for the paper's helix
 
 /// A helix about a vertical axis through p + r [−cos γ, −sin γ, 0]: half a turn that rises by one radius.
 struct SmallHelix {
@@ -106,6 +107,25 @@ double reserveOf(const ImportedMachine& machine, const SmallHelix& helix, double
   return least;
 }
 
+/// Many symmetric hexapods are singular where they are level: the motion then starts turned by a few degrees.
+void turnFromSingular(ImportedMachine& machine, double size) {
+  const ImportedPose given = machine.initial;
+  for (const double angle : {0.1, -0.1, 0.2, -0.2})
+    for (const int axis : {2, 0, 1}) {
+      ImportedPose turned = given;
+      turned.orientation = Eigen::AngleAxisd(angle, Vector3d::Unit(axis)) * given.orientation;
+      std::size_t worst = 0;
+      if (!(reserveOf(machine, turned, worst) > 0.05) ||
+          !(std::abs(regularity(machine, turned, size)) > regular_enough))
+        continue;
+      machine.initial = turned;
+      machine.assumptions.push_back(
+          {fmt::format("The motion starts turned by this about the {} axis of B", "xyz"[axis]), machine.platform, angle,
+           "rad"});
+      return;
+    }
+}
+
 /// The margin of a triangle's third side; at either end the triangle is stretched or folded.
 double within(double least, double value, double most) {
   return std::min(value - least, most - value) / (most - least);
@@ -131,9 +151,11 @@ void proposeMotion(ImportedMachine& machine, double size) {
         fmt::format("the leg of {} cannot take the file's initial pose (its range is exceeded by {:.3g} of "
                     "it), expected a model whose loops are closed there",
                     machine.legs[worst].joints, -at_start));
-  if (const double regular = std::abs(regularity(machine, machine.initial, size)); !(regular > least_regular))
+  if (const double regular = std::abs(regularity(machine, machine.initial, size)); !(regular > least_regular)) {
     machine.assumptions.push_back({"The file's initial pose is singular, or nearly so: efforts there say little",
                                    machine.platform, regular, "1"});
+    turnFromSingular(machine, size);
+  }
   SmallHelix best;
   for (double radius = size / 20; best.radius == 0 && radius > 1e-6 * size; radius /= 2) {
     double most = std::min(0.02, at_start / 2);

@@ -181,14 +181,13 @@ class Recogniser {
     machine_.initial = {0, pose.translation(), pose.linear()};
   }
 
-  /// Efforts go leg by leg, whatever the order of the file's motors or of `--actuated`.
+  /// Several motors of one leg stand together, in the order of its joints.
   void sayOrder() {
     std::vector<std::string> motors;
     for (const ImportedLeg& leg : machine_.legs) motors.insert(motors.end(), leg.motors.begin(), leg.motors.end());
     if (!graph_.motors.empty() && motors != graph_.motors)
       machine_.assumptions.push_back(
-          {"Efforts are in the order of the file's legs, not in that of its motors or of "
-           "--actuated",
+          {"Efforts go leg by leg, which is not the order of the file's motors or of --actuated",
            fmt::format("{}", fmt::join(motors, ", ")), static_cast<double>(motors.size()), "1"});
   }
 

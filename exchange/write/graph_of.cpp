@@ -58,14 +58,16 @@ class Builder {
     const LegPose at = legPose(leg, index, pose_.p + pose_.Q * leg.platform_point);
     const std::string name = fmt::format("leg_{}", index + 1);
     const auto before_proximal = static_cast<std::size_t>(rowOf(leg.kind).joints_of_proximal);
+    // The moment of a free rod about its line has no effect on efforts, so the machine leaves it out; a file has it.
+    const Leg& links = leg.spins ? machine_.given().legs[static_cast<std::size_t>(index)] : leg;
     std::size_t body = 0;
     for (std::size_t k = 0; k < at.joints.size(); ++k) {
       const bool to_proximal = k + 1 == before_proximal, to_distal = k + 1 == at.joints.size();
       const bool in_universal = !to_proximal && !to_distal;
       if (in_universal && leg.spins) continue;  // one ball instead of both hinges
       const Eigen::Isometry3d& frame = k < before_proximal ? at.proximal : at.distal;
-      const std::size_t next = to_proximal ? addLink(name + "_proximal", frame, leg.proximal, leg.proximalCenter())
-                               : to_distal ? addLink(name + "_distal", frame, leg.distal, leg.distalCenter())
+      const std::size_t next = to_proximal ? addLink(name + "_proximal", frame, links.proximal, leg.proximalCenter())
+                               : to_distal ? addLink(name + "_distal", frame, links.distal, leg.distalCenter())
                                            : addBody(name + "_cross", frame, 0, {});
       if (leg.spins && !slides(at.joints[k].coordinate) && k > 0)
         addBall(name + "_inner_ball", body, next, at.joints[k].centre, false);

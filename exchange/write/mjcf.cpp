@@ -20,7 +20,10 @@ constexpr double impedance = 0.9999;
 class MjcfWriter {
  public:
   explicit MjcfWriter(const MachineModel& machine)
-      : machine_(machine), graph_(machine.graph), tree_bodies_(treeBodiesOf(graph_)), document_("mujoco") {}
+      : machine_(machine), graph_(machine.graph), tree_bodies_(treeBodiesOf(graph_)), document_("mujoco") {
+    for (const GraphJoint& joint : graph_.joints)
+      if (joint.closure) platform_ = joint.child;
+  }
 
   std::string text() {
     const Xml root = document_.root();
@@ -60,10 +63,7 @@ class MjcfWriter {
         custom.add("numeric").with("name", joint.name + "_smoothing_speed").with("data", joint.smoothing_speed);
   }
 
-  bool floats(const TreeBody& tree_body) const {
-    return tree_body.child + 1 == graph_.bodies.size() &&
-           graph_.joints[tree_body.joints.front()].kind == JointKind::ball;
-  }
+  bool floats(const TreeBody& tree_body) const { return tree_body.child == platform_; }
 
   void addChildren(const Xml& xml, std::size_t parent) {
     for (const TreeBody& tree_body : tree_bodies_)
@@ -131,7 +131,7 @@ class MjcfWriter {
   /// The anchor is in the platform; MuJoCo takes the leg's point from the file's pose.
   void addClosures(const Xml& xml) const {
     for (const GraphJoint& joint : graph_.joints) {
-      if (joint.kind != JointKind::ball || joint.child + 1 != graph_.bodies.size()) continue;
+      if (joint.kind != JointKind::ball || joint.child != platform_) continue;
       const GraphBody& platform = graph_.bodies[joint.child];
       xml.add("connect")
           .with("name", joint.name)
@@ -146,6 +146,7 @@ class MjcfWriter {
   const MachineModel& machine_;
   const ModelGraph& graph_;
   std::vector<TreeBody> tree_bodies_;
+  std::size_t platform_ = 0;  ///< the body where the loops close
   XmlDocument document_;
 };
 

@@ -88,6 +88,16 @@ TEST(ExportSimulation, FollowsTheMotionAsFarAsItsLoopsAreHard) {
   }
 }
 
+/// Rods that spin freely do not: nothing turns them about their lines.
+TEST(ExportSimulation, FreeRodsFollow) {
+  const Scenario scenario = machine("scenarios/free-rods.toml");
+  const std::string text = textOf(scenario, ModelFormat::mjcf);
+  EXPECT_NE(text.find("type=\"ball\""), std::string::npos);
+  const Followed hard = follow(scenario, text, 0.2), soft = follow(scenario, withImpedance(text, "0.99"), 0.2);
+  EXPECT_LT(hard.drift, soft.drift / 3);
+  EXPECT_LE(hard.gap, 1.1 * hard.gap_by_1);
+}
+
 /// A machine of other efforts does not follow.
 TEST(ExportSimulation, AHeavierPlatformIsSeen) {
   const Scenario scenario = machine("apps/starting/UPS.toml");

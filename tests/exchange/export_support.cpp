@@ -38,8 +38,9 @@ SeenBodies expectedBodies(const Scenario& scenario) {
   for (int i = 0; i < machine.legCount(); ++i) {
     const Leg& leg = machine.leg(i);
     const auto at = static_cast<std::size_t>(i);
-    add(fmt::format("leg_{}_proximal", i + 1), at, leg.proximal.mass, leg.proximal.inertia);
-    add(fmt::format("leg_{}_distal", i + 1), at + leg_count, leg.distal.mass, leg.distal.inertia);
+    const Leg& given = machine.given().legs[at];
+    add(fmt::format("leg_{}_proximal", i + 1), at, leg.proximal.mass, given.proximal.inertia);
+    add(fmt::format("leg_{}_distal", i + 1), at + leg_count, leg.distal.mass, given.distal.inertia);
   }
   add("platform", 2 * leg_count, machine.platform().mass, machine.platform().inertia);
   return out;
@@ -75,6 +76,21 @@ const std::vector<std::string>& machines() {
       "scenarios/three-legs.toml",       "scenarios/knees-mixed.toml",      "scenarios/axis-along-z.toml",
       "scenarios/gravity-sideways.toml", "scenarios/viscous-friction.toml", "scenarios/free-rods.toml"};
   return all;
+}
+
+bool isInBall(const Leg& leg, Coordinate coordinate) {
+  const LegKindRow& row = rowOf(leg.kind);
+  const bool in_universal =
+      row.joints_of_proximal == 2 ? coordinate != row.coordinates[2] : coordinate != row.coordinates[0];
+  return leg.spins && in_universal;
+}
+
+int axesOf(const Scenario& scenario) {
+  int out = 0;
+  for (int i = 0; i < scenario.manipulator->legCount(); ++i)
+    for (const Coordinate each : rowOf(scenario.manipulator->leg(i).kind).coordinates)
+      if (!isInBall(scenario.manipulator->leg(i), each)) ++out;
+  return out;
 }
 
 Scenario machine(const std::string& name) { return readScenario(std::string(URSULA_SOURCE) + "/" + name); }

@@ -34,6 +34,11 @@ constexpr double rounding = 1024 * 2.220446049250313e-16;
 
 /// A machine of each kind, mixtures, three legs, full tensors, gravity aside.
 const std::vector<std::string>& machines();
+
+/// Whether a ball of the exported machine stands for the coordinate, as the leg's rod is free to spin.
+bool isInBall(const Leg& leg, Coordinate coordinate);
+/// The hinges and slides of the exported machine.
+int axesOf(const Scenario& scenario);
 Scenario machine(const std::string& name);
 
 std::string textOf(const Scenario& scenario, ModelFormat format);

@@ -7,6 +7,7 @@
 import re
 import subprocess
 import sys
+import tomllib
 import unittest
 from pathlib import Path
 
@@ -117,32 +118,66 @@ class Cases(import_test.Imports):
             self.refused(text, "m.sdf", ["cross", "--lump"], "--actuated", driven, "--lump", "1e-9")
 
     def test_order_and_sign_of_efforts(self):
-        """The comment names the joints of the efforts; a hinge that turns the other way and another order are said."""
+        """Legs take the order of the motors; the comment names the joints of the efforts; what differs is said."""
         machine, bodies, joints, rng = made(18, ("URS",))
         text = files.write_mjcf(bodies, joints, machine["gravity"], rng)
-        names = [f"leg{i}_j0" for i in range(1, 7)]
-        path, driven = Path(self.folder.name) / "m.xml", names[:5] + ["leg1_j1"]
+        path = Path(self.folder.name) / "m.xml"
+
+        def order_of(*options):
+            done = import_test.run(path, *options)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return done.stdout.split("# Effort columns 1, 2, …: ")[1].split(".\n")[0].split(", "), done.stderr
+
         path.write_text(text)
-        done = import_test.run(path, "--actuated", ",".join(driven))
-        order = done.stdout.split("# Effort columns 1, 2, …: ")[1].split(".\n")[0].split(", ")
-        self.assertEqual(sorted(order), sorted(driven))
-        self.assertEqual(order[order.index("leg1_j0") + 1], "leg1_j1")
-        self.assertIn("not in that of its motors", done.stderr)
-        hinge = next(j for j in joints if j["name"] == "leg1_j1")
-        said = "leg1_j1: The file's coordinate of this hinge grows against the scenario's psi" in done.stderr
-        hinge["axis"] = -hinge["axis"]
-        path.write_text(files.write_mjcf(bodies, joints, machine["gravity"], rng))
-        self.assertNotEqual("leg1_j1: The file's coordinate of this hinge grows against" in import_test.run(path, "--actuated", ",".join(driven)).stderr, said)
-        path.write_text(text)
-        self.assertNotIn("not in that of", import_test.run(path, "--actuated", ",".join(order)).stderr)
         start, end = text.index("<actuator>") + len("<actuator>"), text.index("</actuator>")
         motors = re.findall(r"<\w+ [^>]*/>", text[start:end])
         self.assertEqual(len(motors), 6)
-        said = set()
-        for order in (motors, motors[::-1]):
+        for order in (motors, motors[::-1], motors[3:] + motors[:3]):
             path.write_text(text[:start] + "".join(order) + text[end:])
-            said.add("not in that of its motors" in import_test.run(path).stderr)
-        self.assertIn(True, said)  # one of the two orders at least is not that of the legs
+            names, words = order_of()
+            self.assertEqual(names, [re.search(r'joint="(\w+)"', motor)[1] for motor in order])
+            self.assertNotIn("Efforts go leg by leg", words)
+        chosen = [f"leg{i}_j0" for i in (4, 2, 6, 1, 3, 5)]
+        self.assertEqual(order_of("--actuated", ",".join(chosen))[0], chosen)
+        # Two motors of one leg stand together.
+        driven = [f"leg{i}_j0" for i in range(1, 6)] + ["leg1_j1"]
+        names, words = order_of("--actuated", ",".join(driven))
+        self.assertEqual(names, ["leg1_j0", "leg1_j1"] + driven[1:5])
+        self.assertIn("Efforts go leg by leg", words)
+        hinge = next(j for j in joints if j["name"] == "leg1_j1")
+        grows = "leg1_j1: The file's coordinate of this hinge grows against the scenario's psi"
+        hinge["axis"] = -hinge["axis"]
+        path.write_text(files.write_mjcf(bodies, joints, machine["gravity"], rng))
+        self.assertNotEqual(grows in order_of("--actuated", ",".join(driven))[1], grows in words)
+
+    def test_two_motors_on_one_leg_and_none_on_another(self):
+        """Six motors in all are as good as one for each leg: the efforts bear the same power."""
+        machine, bodies, joints, rng = made(18, ("UPS",))
+        text = files.write_sdf(bodies, joints, machine["gravity"], rng)
+        one = [f"leg{i}_j2" for i in range(1, 7)]
+        two = one[:5] + ["leg1_j0"]
+        path, out = Path(self.folder.name) / "m.sdf", Path(self.folder.name) / "out.toml"
+        path.write_text(text)
+        power = []
+        for driven in (one, two):
+            done = import_test.run(path, "--actuated", ",".join(driven), "--out", out)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            legs = tomllib.loads(out.read_text())["manipulator"]["leg"]
+            self.assertEqual(sum(len(leg["actuated"]) for leg in legs), 6)
+            power.append(self.power(out, legs))
+        self.assertEqual([len(leg["actuated"]) for leg in legs], [2, 1, 1, 1, 1, 0])
+        self.assertGreater(np.abs(power[0]).max(), 1e-3)
+        self.near(power[1], power[0], 1e3 * np.abs(power[0]).max(), "power")
+
+    def power(self, path, legs):
+        done = subprocess.run([import_test.PROGRAM, "inverse", str(path), "--samples", "9"], capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        names, *rows = (line.split(",") for line in done.stdout.splitlines())
+        table = dict(zip(names, np.array(rows, float).T))
+        motors = [(i, c) for i, leg in enumerate(legs, 1) for c in leg["actuated"]]
+        rates = [table[f"{c}dot_{i}_" + ("m_s" if c == "d" else "rad_s")] for i, c in motors]
+        efforts = [column for name, column in table.items() if name.startswith("tau_")]
+        return sum(e * r for e, r in zip(efforts, rates))
 
     def efforts(self, text):
         path = Path(self.folder.name) / "efforts.toml"
@@ -171,6 +206,10 @@ class Cases(import_test.Imports):
                     driven = re.findall(r"say (--actuated) (\S+)", done.stderr)
                     back = lambda: re.sub(r"(?s)\n\[trajectory\].*", "\n" + motion, import_test.run(model, *(driven[0] if driven else ())).stdout)
                     self.assertLessEqual(np.abs(self.efforts(back()) - right).max(), 1e-9 * np.abs(right).max())
+                    if name == "free-rods":
+                        legs = tomllib.loads(back())["manipulator"]["leg"]
+                        self.assertEqual({leg["spin"] for leg in legs}, {"free"})
+                        self.near(legs[1]["distal"]["inertia"], [0.095, 0.095, 0.0006], 1, "moment about the line")
                     if "coulomb" in whole:
                         self.assertIn(key, model.read_text())
                         model.write_text(model.read_text().replace(key, key + "9"))

@@ -320,7 +320,20 @@ class Refusals(unittest.TestCase):
 
     def test_a_platform_that_stands_still(self):
         whole = self.changed(mjcf(), "<freejoint/>", "")
-        self.refused(whole, "m.xml", ["no platform", "platform", "three joints"])
+        self.refused(whole, "m.xml", ["no platform", "world, platform", "three joints", "a joint of its own"])
+
+    def test_closures_and_actuators_of_mjcf(self):
+        """Unknown words of a closure and a second actuator of a joint are said; a range that ends before it begins is refused."""
+        whole = mjcf()
+        done, _ = self.call(self.changed(whole, "<connect ", '<connect relpose="0 0 0 1 0 0 0" '), "m.xml")
+        self.assertIn("attribute relpose", done.stderr)
+        done, _ = self.call(self.changed(whole, "</actuator>", '<motor joint="leg1_j2"/></actuator>'), "m.xml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("leg1_j2: Several actuators", done.stderr)
+        plain, _ = self.call(whole, "m.xml")
+        for words in ("attribute relpose", "Several actuators"):
+            self.assertNotIn(words, plain.stderr)
+        self.refused(self.changed(whole, r'<joint name="leg1_j2"', '<joint limited="true" range="0.3 0.2" name="leg1_j2"'), "m.xml", ["range"])
 
     def test_files(self):
         bomb = '<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa">' + "".join(
