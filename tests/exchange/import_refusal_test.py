@@ -320,11 +320,13 @@ class Refusals(unittest.TestCase):
 
     def test_a_platform_that_stands_still(self):
         whole = self.changed(mjcf(), "<freejoint/>", "")
-        self.refused(whole, "m.xml", ["no platform", "world, platform", "three joints", "a joint of its own"])
+        self.refused(whole, "m.xml", ["no platform", "base, platform, has", "three joints", "a joint of its own"])
 
     def test_closures_and_actuators_of_mjcf(self):
         """Unknown words of a closure and a second actuator of a joint are said; a range that ends before it begins is refused."""
         whole = mjcf()
+        bad = self.changed(whole, r'<joint name="leg1_j0"', '<joint limited="true" range="0.3 0.2" name="leg1_j0"')
+        self.refused(bad, "m.xml", ["range"])
         done, _ = self.call(self.changed(whole, "<connect ", '<connect relpose="0 0 0 1 0 0 0" '), "m.xml")
         self.assertIn("attribute relpose", done.stderr)
         done, _ = self.call(self.changed(whole, "</actuator>", '<motor joint="leg1_j2"/></actuator>'), "m.xml")
@@ -333,7 +335,6 @@ class Refusals(unittest.TestCase):
         plain, _ = self.call(whole, "m.xml")
         for words in ("attribute relpose", "Several actuators"):
             self.assertNotIn(words, plain.stderr)
-        self.refused(self.changed(whole, r'<joint name="leg1_j2"', '<joint limited="true" range="0.3 0.2" name="leg1_j2"'), "m.xml", ["range"])
 
     def test_files(self):
         bomb = '<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa">' + "".join(
