@@ -36,6 +36,9 @@ class Engine {
 class UrdfChain {
  public:
   UrdfChain(const UrdfFile& file, Engine& engine) : file_(file), engine_(engine), none_(zero(file.coordinates)) {
+    if (gaps() + 6 < file.coordinates)
+      throw std::runtime_error(
+          "rods between two balls spin as they like, expected legs without; mujoco_solver takes them");
     if (gaps() + 6 != file.coordinates) throw std::runtime_error("expected as many gaps as leg coordinates");
   }
 
