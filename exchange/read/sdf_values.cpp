@@ -166,8 +166,8 @@ void listPlugins(const Element& element, const std::string& of, std::vector<Assu
     const std::string file = attribute(e, "filename");
     for (const char* word : {"mimic", "spring"})
       if (file.find(word) != std::string::npos)
-        refuse(e,
-               fmt::format("{}: what it does to joints ({}) is what a scenario has no words for", shown(file), word));
+        refuse(e, fmt::format("{} lets a joint follow another or pulls at it, which a scenario has no words for",
+                              shown(file)));
     assumptions.push_back(
         {fmt::format("The plugin {} is left out, with the forces that it may bring", shown(file)), of, 0, "1"});
   });

@@ -212,6 +212,7 @@ class Refusals(unittest.TestCase):
                             (on.format("first", "<dampingFactor>0.25</dampingFactor>"), ["decay", "0.25"]),
                             (on.format("first", "<velocity_decay><linear>0.25</linear></velocity_decay>"), ["decay", "0.25"]),
                             ('<gazebo><plugin filename="libmimic_joint.so"/></gazebo>', ["libmimic_joint.so", "follow"]),
+                            ('<gazebo><plugin filename="libjoint_spring.so"/></gazebo>', ["libjoint_spring.so", "pulls"]),
                             ('<gazebo><link name="extra"/></gazebo>', ["extra", "<gazebo>"]),
                             ('<ros2_control><joint name="leg2_j2"><param name="mimic">leg1_j2</param></joint></ros2_control>', ["leg2_j2", "mimic"])):
             with self.subTest(words=words):
