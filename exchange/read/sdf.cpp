@@ -59,6 +59,8 @@ class SdfReader {
     for (const std::size_t link : links_) readLink(link);
     for (const std::size_t joint : joints_) readJoint(joint);
     if (world != nullptr) eachChild(top, "joint", [&](const Element& e) { readJoint(addJoint(e, SdfFrames::world)); });
+    for (const GraphJoint& joint : graph_.joints)
+      if (joint.driven) graph_.motors.push_back(joint.name);
     for (const std::size_t model : models_)
       readDrakeConstraints(*frames_[model].element, graph_, [&](const Element& at, const std::string& name) {
         return bodyIndex(at, frames_.find(at, model, name, "body"));

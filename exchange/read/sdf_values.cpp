@@ -134,6 +134,8 @@ void takeSdfMotion(const Element& joint_element, const Element& axis, bool endle
                    std::vector<Assumption>& assumptions) {
   if (axis.FirstChildElement("mimic")) refuse(joint_element, "mimic, which a scenario has no words for");
   if (!endless) takeLimits(joint_element, axis, joint);
+  if (const std::string driven = attribute(axis, "ursula:driven"); !driven.empty())
+    joint.driven = truthOf(axis, driven, "ursula:driven");
   if (const std::string rotor = attribute(axis, "ursula:rotor_inertia"); !rotor.empty())
     joint.rotor_inertia = numberOf(axis, rotor, "ursula:rotor_inertia");
   if (const Element* dynamics = onlyChild(axis, "dynamics")) {

@@ -31,8 +31,9 @@ class SdfWriter {
     const Xml model = world.add("model").with("name", graph_.name);
     const std::string motors = motorNames();
     model.comment(fmt::format(" motors drive {}; no motor has effort 0 ", motors));
-    notes_.push_back({"SDF has no motors. They are in a comment and in limits: to import, say --actuated " + motors,
-                      motors, 6, "motors"});
+    notes_.push_back(
+        {"SDF has no motors. ursula:driven marks them for an import; of a file without it, say --actuated " + motors,
+         motors, 6, "motors"});
     for (std::size_t body = 0; body < graph_.bodies.size(); ++body)
       if (!graph_.bodies[body].fixed && graph_.bodies[body].mass != 0) addLink(model, body);
     for (const TreeBody& tree_body : treeBodiesOf(graph_)) addTreeBody(model, tree_body);
@@ -136,6 +137,7 @@ class SdfWriter {
   /// Drake's rotor belongs to a joint of one axis; of two axes only an import knows whose it is.
   void addAxis(const Xml& axis, const GraphJoint& joint, bool is_of_two) {
     if (is_of_two && joint.rotor_inertia != 0) axis.with("ursula:rotor_inertia", joint.rotor_inertia);
+    if (joint.driven) axis.with("ursula:driven", "true");
     axis.add("xyz", numberText(joint.axis[0]));
     if (joint.damping != 0 || joint.friction != 0) {
       const Xml dynamics = axis.add("dynamics");

@@ -19,29 +19,63 @@ using report::Stroke;
 
 constexpr std::size_t buckets = 400, most_rows = 60;
 
-/// Plots measured and predicted effort with a band of 1.96 u_val about the model.
-Plot effortPlot(const IdentifyResult& result, std::size_t k) {
-  const std::string unit = result.motors[k].unit;
-  const auto of = [&](const char* what) { return *result.series.find(fmt::format("{}_{}_{}", what, k + 1, unit)); };
-  std::vector<double> low = of("model"), high = low;
-  const std::vector<double> u = of("u_val");
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    low[i] -= 1.96 * u[i];
-    high[i] += 1.96 * u[i];
-  }
+std::vector<double> columnOf(const IdentifyResult& result, const char* what, std::size_t k) {
+  return *result.series.find(fmt::format("{}_{}_{}", what, k + 1, result.motors[k].unit));
+}
+
+/// Returns a + factor · b.
+std::vector<double> sum(std::vector<double> a, double factor, const std::vector<double>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
+  return a;
+}
+
+Plot plotOf(const IdentifyResult& result, std::size_t k, const std::string& title, const std::string& quantity,
+            std::vector<Line> lines) {
   Plot plot;
-  plot.title = fmt::format("Effort of motor {}", k + 1);
+  plot.title = fmt::format("{} of motor {}", title, k + 1);
   plot.x_label = "t (s)";
-  plot.y_label = fmt::format("effort ({})", unit);
+  plot.y_label = fmt::format("{} ({})", quantity, result.motors[k].unit);
   plot.over_time = plot.tube = true;
   plot.x = *result.series.find("t_s");
   plot.rows = plot.x.size();
-  plot.lines = {{"model + 1.96 u_val", unit, 0, Stroke::limit, high},
-                {"model − 1.96 u_val", unit, 0, Stroke::limit, low},
-                {"measured", unit, 1, Stroke::ghost, of("tau")},
-                {"model", unit, 0, Stroke::line, of("model")},
-                {"fitted model", unit, 2, Stroke::line, of("fitted")}};
+  plot.lines = std::move(lines);
   return thinned(plot, buckets);
+}
+
+/// Plots E = S − D, and what the fit leaves, with the band of 1.96 u_val that holds a right model.
+Plot errorPlot(const IdentifyResult& result, std::size_t k) {
+  const std::string unit = result.motors[k].unit;
+  const std::vector<double> measured = columnOf(result, "tau", k), u = columnOf(result, "u_val", k),
+                            none(measured.size(), 0.0);
+  return plotOf(
+      result, k, "Error", "E = S − D",
+      {{"1.96 u_val", unit, 0, Stroke::limit, sum(none, 1.96, u)},
+       {"−1.96 u_val", unit, 0, Stroke::limit, sum(none, -1.96, u)},
+       {"E, model less measured", unit, 0, Stroke::line, sum(columnOf(result, "model", k), -1, measured)},
+       {"fitted model less measured", unit, 2, Stroke::line, sum(columnOf(result, "fitted", k), -1, measured)}});
+}
+
+/// Plots measured and predicted effort with a band of 1.96 u_val about the model.
+Plot effortPlot(const IdentifyResult& result, std::size_t k) {
+  const std::string unit = result.motors[k].unit;
+  const std::vector<double> model = columnOf(result, "model", k), u = columnOf(result, "u_val", k);
+  return plotOf(result, k, "Effort", "effort",
+                {{"model + 1.96 u_val", unit, 0, Stroke::limit, sum(model, 1.96, u)},
+                 {"model − 1.96 u_val", unit, 0, Stroke::limit, sum(model, -1.96, u)},
+                 {"measured", unit, 1, Stroke::ghost, columnOf(result, "tau", k)},
+                 {"model", unit, 0, Stroke::line, model},
+                 {"fitted model", unit, 2, Stroke::line, columnOf(result, "fitted", k)}});
+}
+
+/// Adds one plot for each motor to the page. Returns their HTML.
+template <class PlotOf>
+std::string motorPlots(const IdentifyResult& result, const PlotOf& plotOfMotor, report::Page& page) {
+  std::string out;
+  for (std::size_t k = 0; k < result.motors.size(); ++k) {
+    page.charts.push_back(plotOfMotor(result, k));
+    out += report::figureHtml(page.charts.back(), page.charts.size() - 1, "h3");
+  }
+  return "<div class=\"charts\">" + out + "</div>";
 }
 
 Plot spectrumPlot(const IdentifyResult& result) {
@@ -153,14 +187,13 @@ std::string identifyPage(const IdentifyResult& result) {
   page.sentence = result.sentence;
   std::vector<std::string> findings;
   for (const LogFinding& each : result.findings) findings.push_back(each.kind + ": " + each.what);
-  std::string efforts, spectrum;
+  std::string errors, efforts, spectrum;
   if (!result.series.names.empty()) {
-    for (std::size_t k = 0; k < result.motors.size(); ++k) page.charts.push_back(effortPlot(result, k));
-    for (std::size_t k = 0; k < page.charts.size(); ++k) efforts += report::figureHtml(page.charts[k], k, "h3");
+    errors = motorsTable(result) + motorPlots(result, errorPlot, page);
+    efforts = motorPlots(result, effortPlot, page);
     page.charts.push_back(spectrumPlot(result));
     spectrum =
         "<div class=\"charts\">" + report::figureHtml(page.charts.back(), page.charts.size() - 1, "h3") + "</div>";
-    efforts = "<div class=\"charts\">" + efforts + "</div>";
     page.figures = {
         {"Delay", fmt::format("{:.3g} samples", result.delay / result.step),
          fmt::format("± {:.2g}", 1.96 * result.delay_uncertainty / result.step)},
@@ -170,14 +203,14 @@ std::string identifyPage(const IdentifyResult& result) {
         {"Not fitted part", fmt::format("{:.3g}", result.validation_fitted),
          fmt::format("of the noise; as given {:.3g}", result.validation_given)}};
   }
-  page.sections = {
-      {"causes", "What may be wrong", causesTable(result)},
-      {"findings", "What the log shows", list(findings)},
-      {"efforts", "Measured and predicted efforts", result.series.names.empty() ? "" : efforts + motorsTable(result)},
-      {"spectrum", "Residual spectrum", spectrum},
-      {"parameters", "Numbers that the motion shows", numbersTable(result.numbers, false)},
-      {"combinations", "Combinations that it shows", numbersTable(result.combinations, true)},
-      {"unseen", "What this motion cannot see", list(result.unseen)}};
+  page.sections = {{"causes", "What may be wrong", causesTable(result)},
+                   {"findings", "What the log shows", list(findings)},
+                   {"errors", "Comparison error", errors},
+                   {"efforts", "Measured and predicted efforts", efforts},
+                   {"spectrum", "Residual spectrum", spectrum},
+                   {"parameters", "Numbers that the motion shows", numbersTable(result.numbers, false)},
+                   {"combinations", "Combinations that it shows", numbersTable(result.combinations, true)},
+                   {"unseen", "What this motion cannot see", list(result.unseen)}};
   page.script = report::charts_script;
   page.footer = fmt::format("<p>ursula {}. Read as: {}</p>", escaped(result.version), escaped(result.read_as));
   return report::pageHtml(page);

@@ -141,17 +141,18 @@ std::string identifySentence(const IdentifyResult& result) {
       at = k;
     }
   const MotorAgreement& motor = result.motors[at];
-  const std::string size = fmt::format(
-      "the deviation of motor {} is {:.3g} {} (rms), u_val {:.3g} {}, {:.1f} % of instants within 1.96 u_val", at + 1,
-      motor.deviation, motor.unit, motor.u_val, motor.unit, 100 * motor.within);
-  if (result.verdict == Verdict::pass) return "Within u_val at 95 %: " + size + ".";
-  std::string out = result.verdict == Verdict::fail ? "Model error: " + size : "Not judged: " + size;
-  if (result.causes.empty()) return out + (result.verdict == Verdict::fail ? "; no single number explains it." : ".");
+  const std::string size = fmt::format("motor {} deviates by {:.3g} {} (rms) at an uncertainty u_val of {:.3g} {}",
+                                       at + 1, motor.deviation, motor.unit, motor.u_val, motor.unit);
+  if (result.verdict == Verdict::pass)
+    return "The model agrees within its uncertainty at 95 %: " + size + ", the most of all.";
+  std::string out = (result.verdict == Verdict::fail ? "The model is wrong: " : "Not judged: ") + size + ".";
+  if (result.causes.empty()) return out + (result.verdict == Verdict::fail ? " No single number explains it." : "");
   const MeasuredCause& cause = result.causes.front();
-  if (cause.kind == "order" || cause.kind == "sign" || cause.kind == "units") return out + "; " + cause.what + ".";
-  out += fmt::format("; explained by {} {:.6g} ± {:.2g} {} instead of {:.6g}",
+  if (cause.kind == "order" || cause.kind == "sign" || cause.kind == "units")
+    return out + " Likely cause: " + cause.what + ".";
+  out += fmt::format(" Likely cause: {} is {:.6g} ± {:.2g}{} instead of {:.6g}",
                      cause.parameter.empty() ? cause.what : cause.parameter, cause.found, 1.96 * cause.uncertainty,
-                     cause.unit, cause.expected);
+                     cause.unit.empty() ? "" : " " + cause.unit, cause.expected);
   if (cause.tolerances != 0) out += fmt::format(", {:.3g} of its tolerances", std::abs(cause.tolerances));
   return out + (cause.outside ? ", which no mass, inertia or friction can be." : ".");
 }
