@@ -68,7 +68,7 @@ def test_a_tolerance_of_ones_own(quick):
     assert ursula.validate(s, single, rtol="1e-4%").verdict == "pass"
     assert ursula.validate(s, single, rtol="1e-10%").verdict == "fail"
     assert ursula.validate(s, single, atol=1e-4).verdict == "fail"
-    with pytest.raises(ValueError, match="rtol is -1.000000, expected a positive number"):
+    with pytest.raises(ValueError, match="rtol is -1.0, expected a positive number"):
         ursula.validate(s, rtol=-1)
 
 
@@ -270,7 +270,7 @@ def test_a_time_limit_and_any_tolerance_hold_for_torques(quick):
     (ValueError, "lies outside of the motion, expected 0 to 3 s; they look like milliseconds",
      lambda t, tau: {"torques": tau, "t": 1000 * t}),
     (ValueError, "expected increasing instants", lambda t, tau: {"torques": tau, "t": t[::-1]}),
-    (ValueError, "torques:1: error: ", lambda t, tau: {"torques": tau[:0], "t": t[:0]}),
+    (ValueError, "torques: no rows, expected at least one", lambda t, tau: {"torques": tau[:0], "t": t[:0]}),
 ])
 def test_torques_that_cannot_be_judged_are_refused(quick, error, words, change):
     s = ursula.read_scenario(quick)
