@@ -60,8 +60,13 @@ std::string nearName(const std::filesystem::path& file) {
   std::vector<std::string> names;
   std::error_code error;
   std::filesystem::directory_iterator at(file.has_parent_path() ? file.parent_path() : ".", error);
-  for (; !error && at != std::filesystem::directory_iterator() && names.size() < most; at.increment(error))
-    names.push_back(at->path().filename().string());
+  // A common extension would make short names alike.
+  const auto near = [](const std::string& a, const std::string& b) { return a == b || !nearest(a, {b}).empty(); };
+  for (; !error && at != std::filesystem::directory_iterator() && names.size() < most; at.increment(error)) {
+    const std::filesystem::path& name = at->path();
+    if (near(file.stem().string(), name.stem().string()) && near(file.extension().string(), name.extension().string()))
+      names.push_back(name.filename().string());
+  }
   std::sort(names.begin(), names.end());
   return didYouMean(file.filename().string(), names);
 }

@@ -152,7 +152,8 @@ struct ReplayError {
 struct Finding {
   std::string name;   ///< "largest condition number of B"
   std::string words;  ///< a fact that is no number
-  double value = std::numeric_limits<double>::quiet_NaN(), uncertainty = value;
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double uncertainty = std::numeric_limits<double>::quiet_NaN();
   std::string unit = {};
   double t = std::numeric_limits<double>::quiet_NaN();  ///< s
   int leg = 0;                                          ///< 1-based
