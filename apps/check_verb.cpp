@@ -32,7 +32,7 @@ bool checkOne(const std::string& file, const CheckOptions& options) {
       return on_stderr ? sayText(withoutControls(text)) : writeOutput("-", withoutControls(text));
     };
     for (const std::string& line : odd) tell(line + "\n");
-    if (!options.picture.empty()) writeOutput(options.picture, picture(scenario));
+    if (!options.picture.empty()) writePicture(options.picture, picture(scenario));
     tryMotion(scenario);
     tell(fmt::format("{}: the scenario and its motion are valid; {} warning{}\n", scenario.file.string(), odd.size(),
                      odd.size() == 1 ? "" : "s"));
@@ -59,9 +59,8 @@ void addCheck(CLI::App& app, std::function<int()>& run) {
       app.add_subcommand("check", "Reads a scenario and tries its motion: reports errors, and warns of odd values");
   verb->add_option("scenarios", options->scenarios, "Scenario files (TOML), - for standard input")->required();
   verb->add_option("--picture", options->picture,
-                   "Draws the machine at the start of the motion, even if it is out of reach: SVG file; - for standard "
-                   "output")
-      ->check(expectsSvg);
+                   "Draws the machine at the start of the motion, even if it is out of reach: SVG or PNG file; - for "
+                   "standard output, as SVG");
   verb->callback([options, &run] { run = [options] { return check(*options); }; });
 }
 

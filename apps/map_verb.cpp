@@ -53,7 +53,7 @@ int map(const MapOptions& options) {
   streamBlocks(table, {options.format, options.jobs, written}, [&out](std::string_view rows) {
     if (out) out->write(rows);
   });
-  if (draws) writeOutput(options.picture, mapPicture(scenario, grid, drawn));
+  if (draws) writePicture(options.picture, mapPicture(scenario, grid, drawn));
   if (out) out->commit();
   return exit_passed;
 }
@@ -72,8 +72,8 @@ void addMap(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--at", options->at, "Instant, s; its pose gives the coordinates that are not given")
       ->capture_default_str();
   verb->add_option("--out", options->out, "CSV file; - for standard output, the default without --picture");
-  verb->add_option("--picture", options->picture, "Heat maps of every quantity: SVG file; - for standard output")
-      ->check(expectsSvg);
+  verb->add_option("--picture", options->picture,
+                   "Heat maps of every quantity: SVG or PNG file; - for standard output, as SVG");
   addRowOptions(*verb, options->format, options->jobs);
   verb->callback([options, &run] { run = [options] { return map(*options); }; });
 }

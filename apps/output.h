@@ -13,11 +13,8 @@ namespace ursula {
 /// Whether the option names a file. It may also be absent, or "-" for a standard stream.
 inline bool namesFile(const std::string& option) { return !option.empty() && option != "-"; }
 
-/// Refuses names of pictures that this program cannot draw.
-inline std::string expectsSvg(const std::string& file) {
-  const bool is_png = file.size() > 4 && file.compare(file.size() - 4, 4, ".png") == 0;
-  return is_png ? "got " + file + ", expected an SVG file; a report's page saves PNG" : "";
-}
+/// Writes a picture, as PNG if the file's name ends so. Throws UsageError if the program that makes PNG is missing.
+void writePicture(const std::string& file, const std::string& svg);
 
 /// Writes in pieces to a file that appears only when complete, or to standard output if `file` is "-" or empty.
 class Output {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "tests/end_to_end/program.h"
 #include "tests/model/scenario_text.h"
 
@@ -71,6 +73,23 @@ TEST(CheckVerb, warnsAndPasses) {
                              HasSubstr("a.toml: the scenario and its motion are valid; 1 warning\n")));
   EXPECT_EQ(run.err, "");
   EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "a.svg"), HasSubstr("</svg>"));
+}
+
+TEST(CheckVerb, drawsAPngWhereTheNameEndsSo) {
+  const Program ursula;
+  ursula.write("a.toml", good_scenario);
+  ASSERT_EQ(ursula("check a.toml --picture a.png").exit_code, 0);
+  const std::string png = TemporaryFolder::read(ursula.folder() / "a.png");
+  EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
+  EXPECT_GT(png.size(), 2000U);
+  ursula.write("a.png", "kept");
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", "/nowhere", 1);
+  const UrsulaRun without = ursula("check a.toml --picture a.png");
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_THAT(without.err, HasSubstr("librsvg2-bin"));
+  EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "a.png"), "kept");
 }
 
 TEST(CheckVerb, exitsWithTwoForErrorsOfAnyScenarioAndNamesThemAll) {
