@@ -67,13 +67,14 @@ void addCompare(CLI::App& app, std::function<int()>& run) {
       ->capture_default_str();
   verb->add_flag_function(
       "--interpolate,!--no-interpolate", [options](std::int64_t given) { options->tolerances.interpolate = given > 0; },
-      "Interpolate the reference between its instants, or leave such instants out. Default: interpolate if the "
-      "reference is at least as fine as the test");
+      "Interpolates the reference between its instants; --no-interpolate leaves such instants out. Default: "
+      "interpolates if the reference is at least as fine as the test");
   verb->add_option("--columns", options->tolerances.columns, "Columns to compare, such as tau_*,p_x_m. Default: all")
       ->delimiter(',');
-  verb->add_option("--out", options->out,
-                   "Folder for a page with every channel drawn, the table and JUnit; or FILE.csv, - for standard "
-                   "output: the table alone");
+  verb->add_option(
+      "--out", options->out,
+      "Folder for a page with every channel drawn, the table and JUnit. FILE.csv, or - for standard output, "
+      "gets the table alone");
   verb->add_option("--junit", options->junit, "JUnit XML, a case for each channel");
   verb->callback([options, &run] { run = [options] { return compareFiles(*options); }; });
 }

@@ -39,10 +39,9 @@ void addDocs(CLI::App& app, std::function<int()>& run) {
   verb->group("");  // for developers: not listed
   verb->add_option("folder", options->folder,
                    "Folder for checks.md, scenario.md and scenario.schema.json (./dev docs)");
-  CLI::Option* shell =
-      verb->add_option("--completion", options->shell, "The completion for bash, zsh or fish, on standard output")
-          ->check(CLI::IsMember({"bash", "zsh", "fish"}));
-  verb->add_flag("--man", options->man, "The man page, on standard output")->excludes(shell);
+  CLI::Option* shell = verb->add_option("--completion", options->shell, "Prints the completion for bash, zsh or fish")
+                           ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  verb->add_flag("--man", options->man, "Prints the man page")->excludes(shell);
   verb->callback([options, &app, &run] { run = [options, &app] { return docs(*options, app); }; });
 }
 

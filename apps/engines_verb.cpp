@@ -65,7 +65,7 @@ int engines(EnginesOptions options) {
 void addEngines(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<EnginesOptions>();
   CLI::App* verb = app.add_subcommand(
-      "engines", "Compare engines on one machine: how to get efforts right, how wrong the obvious calls are");
+      "engines", "Compares engines on one machine: how to get efforts right, how wrong the obvious calls are");
   verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
   verb->add_option("--out", options->out, "Folder for report.html, engines.json and engines.csv");
   verb->add_option("--engine", options->engines, "Names of the engines to ask; default: all in this build")
@@ -76,7 +76,7 @@ void addEngines(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--seconds", options->asked.moved, "Duration of the stepped motion from its start, s")
       ->check(finitePositive())
       ->capture_default_str();
-  verb->add_flag("--json", options->json, "Write JSON to standard output, and nothing else");
+  verb->add_flag("--json", options->json, "Writes JSON to standard output, and nothing else");
   verb->callback([options, &run] { run = [options] { return engines(*options); }; });
 }
 

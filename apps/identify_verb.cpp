@@ -64,15 +64,15 @@ int identifyLog(IdentifyCall call) {
 
 void addIdentify(CLI::App& app, std::function<int()>& run) {
   const auto call = std::make_shared<IdentifyCall>();
-  CLI::App* verb =
-      app.add_subcommand("identify", "Compare measured efforts with the model, judge it, and estimate its parameters");
+  CLI::App* verb = app.add_subcommand(
+      "identify", "Compares measured efforts with the model, judges it, and estimates its parameters");
   verb->add_option("scenario", call->scenario, "Scenario file (TOML), - for standard input")->required();
   verb->add_option("--measured", call->measured,
                    "CSV file with t_s, driven coordinates or poses, efforts or currents, and optionally a load")
       ->required();
   verb->add_option("--out", call->out, "Folder of the results; default: results/NAME");
   verb->add_option("--map", call->log.map,
-                   "Name a column of the log, such as phi_1_rad=enc1 or t_ms=Time; may be repeated")
+                   "Names a column of the log, such as phi_1_rad=enc1 or t_ms=Time; may be repeated")
       ->type_name("NAME=COLUMN")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
@@ -80,9 +80,9 @@ void addIdentify(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--constant", call->log.constants,
                    "Motor constants for currents, N m/A or N/A: one for all motors, or six")
       ->delimiter(',');
-  verb->add_flag("--prior", call->prior, "Use the scenario's tolerances as the numbers' prior uncertainty");
-  verb->add_flag("--json", call->json, "Write summary.json to standard output, and nothing else");
-  verb->add_flag("--quiet", call->quiet, "Write nothing to standard output");
+  verb->add_flag("--prior", call->prior, "Uses the scenario's tolerances as the numbers' prior uncertainty");
+  verb->add_flag("--json", call->json, "Writes summary.json to standard output, and nothing else");
+  verb->add_flag("--quiet", call->quiet, "Writes nothing to standard output");
   verb->callback([call, &run] { run = [call] { return identifyLog(*call); }; });
 }
 

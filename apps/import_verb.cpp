@@ -58,12 +58,12 @@ void addImport(CLI::App& app, std::function<int()>& run) {
                    "Two links, A:B: a ball joint connects the origins of their frames; once for each loop");
   verb->add_option(
           "--tolerance", choices.tolerance,
-          "Largest error of axes that count as square, parallel or meeting: rad, and share of the machine's size")
+          "Axes count as square or parallel within this angle, rad, and as meeting within this share of the machine's "
+          "size")
       ->check(finiteNotNegative())
       ->capture_default_str();
-  verb->add_option(
-          "--lump", choices.lump,
-          "Largest share of a leg's moments of inertia that crosses within its joints may have; it is left out")
+  verb->add_option("--lump", choices.lump,
+                   "Crosses within joints are left out if their share of the leg's moments of inertia is at most this")
       ->transform(withoutPercent)
       ->check(finiteNotNegative())
       ->capture_default_str();

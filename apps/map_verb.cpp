@@ -62,19 +62,21 @@ int map(const MapOptions& options) {
 
 void addMap(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<MapOptions>();
-  CLI::App* verb =
-      app.add_subcommand("map", "Reach, condition number, leg margins and largest static effort over a grid of poses");
+  CLI::App* verb = app.add_subcommand(
+      "map", "Computes reach, condition number, leg margins and largest static effort over a grid of poses");
   verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
   for (std::size_t i = 0; i < grid_axes; ++i)
     verb->add_option(std::string("--") + grid_axis_names[i], options->axes[i],
-                     std::string(i < 3 ? "Position of P in B, m" : "Angle, degrees: Q = Rz(yaw) Ry(pitch) Rx(roll)") +
-                         ": FROM,TO,COUNT, or one value. Two or three axes vary; default: x, y, z around the path");
+                     std::string(i < 3 ? "Position of P in B, m" : "Angle, degrees: Q = Rz(yaw) Ry(pitch) Rx(roll)"));
   verb->add_option("--at", options->at, "Instant, s; its pose gives the coordinates that are not given")
       ->capture_default_str();
   verb->add_option("--out", options->out, "CSV file; - for standard output, the default without --picture");
   verb->add_option("--picture", options->picture,
                    "Heat maps of every quantity: SVG or PNG file; - for standard output, as SVG");
   addRowOptions(*verb, options->format, options->jobs);
+  verb->footer(
+      "Each of --x to --yaw takes FROM,TO,COUNT, or one value. Two or three of them vary; by default x, y and z vary\n"
+      "around the path.");
   verb->callback([options, &run] { run = [options] { return map(*options); }; });
 }
 

@@ -79,7 +79,7 @@ void addRowOptions(CLI::App& verb, RowFormat& format, int& jobs) {
                             "doubles, as numpy.fromfile reads them"),
             formats)
       ->default_str("csv");
-  verb.add_option("--jobs", jobs, "Threads, as far as the processor has them; results are the same for any number")
+  verb.add_option("--jobs", jobs, "Number of threads, at most those of the processor; results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
 }

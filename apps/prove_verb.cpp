@@ -150,19 +150,21 @@ int prove(const ProveOptions& options) {
 
 void addProve(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<ProveOptions>();
-  CLI::App* verb = app.add_subcommand("prove", "Inject defects into the solver and show which check catches each");
+  CLI::App* verb = app.add_subcommand("prove", "Injects defects into the solver and shows which check catches each");
   verb->add_option("scenario", options->scenario,
                    "Scenario file (TOML), - for standard input; default: the built-in proving ground");
   verb->add_option("--out", options->out, "Folder for a page: defects against checks, thresholds");
   verb->add_option("--jobs", options->jobs, "Threads")->check(CLI::Range(1, 1024))->capture_default_str();
-  verb->add_option("--random", options->random, "Random valid scenarios, none of which may fail")
+  verb->add_option("--random", options->random, "Number of random valid scenarios; none may fail")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
-  verb->add_option("--seed", options->seed, "Seed of the first of them")->check(wholeNumber())->capture_default_str();
+  verb->add_option("--seed", options->seed, "Seed of the first random scenario")
+      ->check(wholeNumber())
+      ->capture_default_str();
   std::map<std::string, RandomKind> kinds;
   for (std::size_t k = 0; k < random_kind_names.size(); ++k) kinds[random_kind_names[k]] = static_cast<RandomKind>(k);
   takeOneOf(verb->add_option("--kind", options->kind, "Legs of the random machines"), kinds)->default_str("URS");
-  verb->add_flag("--only-random", options->only_random, "Leave out the defects");
+  verb->add_flag("--only-random", options->only_random, "Leaves out the defects");
   verb->callback([options, &run] { run = [options] { return prove(*options); }; });
 }
 

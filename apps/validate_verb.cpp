@@ -219,11 +219,12 @@ void addOutputOptions(CLI::App& verb, ValidateOptions& options) {
 void addOtherSolvers(CLI::App& verb, ValidateOptions& options) {
   CLI::Option* torques =
       verb.add_option("--torques", options.torques,
-                      "CSV file of other torques or forces to judge instead: t_s and tau_1_Nm … tau_6_Nm,\n"
+                      "Judges the torques or forces of this CSV file instead: t_s and tau_1_Nm … tau_6_Nm,\n"
                       "tau_1_N … for motors that slide");
   CLI::Option* solver = verb.add_option(
       "--solver", options.solver.command,
-      "Command to judge instead: sh starts it once for each scenario. It reads the motion line by line on its standard "
+      "Judges this command instead. sh starts it once for each scenario. It reads the motion line by line on its "
+      "standard "
       "input\n"
       "(t,p,q,v,w,a,alpha: 20 values, separated by commas) and answers each line with six torques or forces");
   solver->excludes(torques)->check(
@@ -240,14 +241,13 @@ void addOtherSolvers(CLI::App& verb, ValidateOptions& options) {
 
 void addValidate(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<ValidateOptions>();
-  CLI::App* verb =
-      app.add_subcommand("validate", "Judge the torques or forces of a scenario against Simbody, with reasons");
+  CLI::App* verb = app.add_subcommand("validate", "Judges motor efforts by comparison with Simbody, and says why");
   verb->add_option("scenario", options->scenarios,
                    "Scenario files (TOML), or folders: each *.toml in it, sorted; - for standard input")
       ->required();
   addOutputOptions(*verb, *options);
   verb->add_option("--jobs", options->jobs,
-                   "Number of scenarios judged at a time; for one scenario, of threads. Results do not depend on it")
+                   "Scenarios judged at a time; for one scenario, threads. Results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   verb->add_option("--time-limit", options->time_limit,
@@ -260,11 +260,12 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
   addOtherSolvers(*verb, *options);
   verb->add_option(
           "--rtol", options->rtol,
-          "Largest error of torques or forces that pass, relative to the largest effort of the motion, also as 1%;\n"
+          "Largest error of torques or forces that passes, relative to the largest effort of the motion, also as 1%;\n"
           "takes precedence over [acceptance] torque")
       ->check(finitePositive())
       ->transform(withoutPercent);  // runs first, because transforms run in reverse order
-  verb->add_option("--atol", options->atol, "The same in N m, or N; the sum of both counts")->check(finitePositive());
+  verb->add_option("--atol", options->atol, "Largest error that passes, N m or N; added to that of --rtol")
+      ->check(finitePositive());
   verb->add_flag("--any-tolerance", options->any_tolerance, "Accepts even a tolerance at which zeros would pass");
   verb->footer(
       "Several scenarios: each gets a folder under DIR, and all share index.html and junit.xml; so does a folder's\n"
