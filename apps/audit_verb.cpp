@@ -30,6 +30,8 @@ int audit(const AuditOptions& options) {
     if (namesFile(file)) requireWritable(file);  // the rest takes a while
   const Scenario scenario = options.scenario.empty() ? paperHelix() : readScenarioOrInput(options.scenario);
   requireApart(scenario, {options.json, options.markdown});
+  if (!scenario.manipulator->isOfThePaper())
+    say("note: the formulas are those of six URS legs driven by phi, which this machine does not have\n");
   const Audit result = alongMotion(scenario, [&] {
     const Progress progress("audit");
     return runAudit(scenario);

@@ -110,9 +110,29 @@ std::string legsThat(const PlatformPose& pose, Condition&& condition) {
   return legs.empty() ? "" : fmt::format("leg{} {}", legs.size() == 1 ? "" : "s", fmt::join(legs, ", "));
 }
 
+struct Counts {
+  int poses = 0;      ///< real ones that differ
+  int real = 0;       ///< the same, with their multiplicities
+  int solutions = 0;  ///< real and complex, with their multiplicities
+  int at_infinity = 0;
+};
+
+/// Says numbers that add up to all solutions found, of so many that exist.
+void sayCounts(int all, const Counts& found) {
+  const int sum = found.solutions + found.at_infinity;
+  const std::string merged =
+      found.real == found.poses ? "" : fmt::format(" ({} with their multiplicities)", found.real);
+  say("{}: {} real pose{}{}, {} complex{}\n",
+      sum == all ? fmt::format("{} solutions", all) : fmt::format("{} of {} solutions found", sum, all), found.poses,
+      found.poses == 1 ? "" : "s", merged, found.solutions - found.real,
+      found.at_infinity > 0 ? fmt::format(", {} at infinity", found.at_infinity) : "");
+}
+
 void summarise(const PlatformPoses& poses) {
   int index = 0;
-  say("{} real pose{}; {} of 8 complex solutions found\n", poses.size, poses.size == 1 ? "" : "s", poses.counted);
+  int real = 0;
+  for (const PlatformPose& pose : poses) real += pose.multiplicity;
+  sayCounts(8, {poses.size, real, poses.counted, 0});
   for (const PlatformPose& pose : poses) {
     const std::string far = legsThat(pose, [](const LegAtPose& leg) { return !leg.in_reach; });
     const std::string behind = legsThat(pose, [](const LegAtPose& leg) { return !leg.front; });
@@ -183,15 +203,16 @@ int directOnSpheres(const Scenario& scenario, const NumbersOption& option, const
     return exit_inconclusive;
   }
   writeOutput(options.out, csvOf(machine, driven, poses));
-  say("{} real pose{}; {} complex poses and {} solutions at infinity found, of 40\n", poses.list.size(),
-      poses.list.size() == 1 ? "" : "s", poses.counted, poses.at_infinity);
+  int real = 0;
+  for (const UpsPose& pose : poses.list) real += pose.multiplicity;
+  sayCounts(40, {static_cast<int>(poses.list.size()), real, poses.counted, poses.at_infinity});
   if (const int leg = beyondStroke(machine, driven); leg >= 0)
-    say("leg {} cannot be {:g} m long: its stroke is from {:g} m to {:g} m\n", leg + 1, driven(leg),
-        machine.leg(leg).distal.length, machine.leg(leg).distal.length + machine.leg(leg).proximal.length);
+    say("leg {}: {:g} m is not within its stroke, expected more than {:g} m and less than {:g} m\n", leg + 1,
+        driven(leg), machine.leg(leg).distal.length, machine.leg(leg).distal.length + machine.leg(leg).proximal.length);
   return poses.complete() ? exit_passed : exit_inconclusive;
 }
 
-/// "URS legs driven by phi; UPS legs driven by d".
+/// "six UPS legs driven by d", or "6 legs: URS legs driven by phi; UPS legs driven by d".
 std::string inWords(const Manipulator& machine) {
   std::vector<std::string> kinds;
   for (const Leg& leg : machine.parameters().legs) {
@@ -203,6 +224,7 @@ std::string inWords(const Manipulator& machine) {
                     driven.empty() ? "without a motor" : fmt::format("driven by {}", fmt::join(driven, " and ")));
     if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) kinds.push_back(kind);
   }
+  if (kinds.size() == 1 && machine.legCount() == leg_count) return "six " + kinds.front();
   return fmt::format("{} legs: {}", machine.legCount(), fmt::join(kinds, "; "));
 }
 
@@ -221,7 +243,7 @@ int direct(const DirectOptions& options) {
   const bool of_paper = machine.isOfThePaper();
   if (!of_paper && !tipsAreOnSpheres(machine))
     throw UsageError(
-        fmt::format("direct: {}: has {}, expected six URS legs driven by phi, or six UPS, RUS or PUS legs, "
+        fmt::format("{} has {}, expected six URS legs driven by phi, or six UPS, RUS or PUS legs, "
                     "each driven by d, phi or d",
                     scenario.file.string(), inWords(machine)));
   const NumbersOption& option = optionFor(machine);
@@ -231,8 +253,8 @@ int direct(const DirectOptions& options) {
                                                   : options.coordinates;
   const std::string& text = own.empty() ? options.coordinates : own;
   if (count != 1 || text.empty())
-    throw UsageError(fmt::format("direct: {}: has {}, expected {} {}_1,...,{}_6", scenario.file.string(),
-                                 inWords(machine), option.option, option.symbol, option.symbol));
+    throw UsageError(fmt::format("{} has {}, expected {} {}_1,...,{}_6", scenario.file.string(), inWords(machine),
+                                 option.option, option.symbol, option.symbol));
   return of_paper ? directOfPaper(scenario, text, options) : directOnSpheres(scenario, option, text, options);
 }
 
@@ -257,8 +279,8 @@ void addDirect(CLI::App& app, std::function<int()>& run) {
       "manipulator's own bend of each knee; the other bend also reaches. For other legs side_i = 0 says that the leg "
       "is\n"
       "beyond its stroke (UPS) or bends the other way (RUS, PUS).\n"
-      "Exit code: 0 every real pose was found (if there is none, only the header is written), 2 bad input, 3 the\n"
-      "angles leave the platform free to move, or a pose may be missing.");
+      "Exit code: 0 if every real pose was found (if there is none, only the header is written), 2 for bad input,\n"
+      "3 if the platform is free to move or a pose may be missing.");
   verb->callback([options, &run] { run = [options] { return direct(*options); }; });
 }
 

@@ -24,9 +24,10 @@ int exciteMachine(ExciteCall call) {
   call.options.progress = [&progress](double share, const std::string& what) { progress.at(share, what); };
   const Excitation found = alongMotion(scenario, [&] { return excite(scenario, call.options); });
   writeOutput(call.out, found.csv);
-  say("{} combinations of numbers shown, condition number {:.4g} (the scenario's own motion: {:.4g}); largest speed "
+  say("{} combination{} of numbers shown, condition number {:.4g} (the scenario's own motion: {:.4g}); largest speed "
       "{:.3g}, effort {:.4g}, condition of B {:.4g}\n",
-      found.shown, found.condition, found.scenario_condition, found.speed, found.effort, found.kappa);
+      found.shown, found.shown == 1 ? "" : "s", found.condition, found.scenario_condition, found.speed, found.effort,
+      found.kappa);
   return exit_passed;
 }
 
@@ -35,7 +36,7 @@ int exciteMachine(ExciteCall call) {
 void addExcite(CLI::App& app, std::function<int()>& run) {
   const auto call = std::make_shared<ExciteCall>();
   CLI::App* verb = app.add_subcommand(
-      "excite", "Find a periodic motion that shows the machine's numbers to `identify`, as a samples file");
+      "excite", "Finds a periodic motion that shows the machine's numbers to `identify`, as a samples file");
   ExciteOptions& o = call->options;
   verb->add_option("scenario", call->scenario, "Scenario file (TOML), - for standard input")->required();
   verb->add_option("--out", call->out, "CSV file for kind = \"samples\"; - for standard output")->capture_default_str();

@@ -25,7 +25,7 @@ LegKind kindOf(const std::string& name) {
     names.emplace_back(leg_kinds[k].name);
     if (name == names.back()) return static_cast<LegKind>(k);
   }
-  throw UsageError(fmt::format("--kind {}: no such kind of leg, expected {}{}", name, fmt::join(names, ", "),
+  throw UsageError(fmt::format("--kind {}: unknown kind of leg, expected one of {}{}", name, fmt::join(names, ", "),
                                didYouMean(name, names)));
 }
 
@@ -44,7 +44,7 @@ std::string textFor(const std::string& file, LegKind kind) {
 int init(const InitOptions& options) {
   const LegKind kind = kindOf(options.kind);
   if (options.file != "-" && std::filesystem::exists(std::filesystem::symlink_status(options.file)))
-    throw UsageError(options.file + ": this file exists and is not overwritten, expected the name of a new file");
+    throw UsageError(options.file + " exists, expected the name of a new file");
   writeOutput(options.file, textFor(options.file, kind));
   if (options.file != "-") say("wrote {}; change it, then: ursula check {}\n", options.file, shellWord(options.file));
   return exit_passed;

@@ -16,8 +16,10 @@ namespace {
 std::filesystem::path pageIn(const std::filesystem::path& folder) {
   for (const char* page : {"report.html", "index.html"})
     if (std::filesystem::is_regular_file(folder / page)) return std::filesystem::absolute(folder / page);
+  if (!std::filesystem::is_directory(folder))
+    throw UsageError(fmt::format("{}: no such folder, expected a folder of results", folder.string()));
   throw UsageError(
-      fmt::format("{}: neither report.html nor index.html in it, expected a folder of results", folder.string()));
+      fmt::format("{} has neither report.html nor index.html, expected a folder of results", folder.string()));
 }
 
 bool isInPath(const std::string& program) {

@@ -21,7 +21,8 @@ struct MergeOptions {
 /// Reports the missing points, and the commands that compute them.
 void sayMissing(const MergeResult& result, const std::string& database) {
   const SweepIdentity& sweep = result.identity;
-  say("{} of {} points are missing", sweep.points - result.done, sweep.points);
+  const auto missing = sweep.points - result.done;
+  say("{} of {} points {} missing", missing, sweep.points, missing == 1 ? "is" : "are");
   if (!result.missing.empty())
     say(", the first from {} to {}", result.missing.front().first, result.missing.front().end - 1);
   say("; to make them:\n");
@@ -78,15 +79,15 @@ void addSweepMerge(CLI::App& sweep, std::function<int()>& run) {
   verb->add_option("--db", options->database, "Database that receives all points; it is made if it does not exist")
       ->required();
   verb->footer(
-      "Exit code: 0 if all points are there; 3 if some are missing: it then prints which, and the commands to make "
-      "them.\n"
+      "Exit code: 0 if all points are there; 3 if some are missing: it then names them and prints the commands that "
+      "make them.\n"
       "130 or 143 if Ctrl-C or SIGTERM stopped it: the same command continues.");
   verb->callback([options, &run] { run = [options] { return merge(*options); }; });
 }
 
 void addSweepShow(CLI::App& sweep, std::function<int()>& run) {
   const auto options = std::make_shared<ShowOptions>();
-  CLI::App* verb = sweep.add_subcommand("show", "One point as a scenario, for ursula validate");
+  CLI::App* verb = sweep.add_subcommand("show", "Writes one point as a scenario, for ursula validate");
   verb->add_option("sweep", options->sweep, "Sweep file (TOML)")->required();
   verb->add_option("id", options->id, "Number of the point, from 0")
       ->required()

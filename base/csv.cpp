@@ -86,7 +86,8 @@ void readRow(std::string_view text, int line, const std::vector<std::size_t>& wa
   const std::size_t width = table.names.size() + table.ignored.size();
   if (cells.size() != width)
     fail(table.file, line,
-         fmt::format("{} cells, expected {}, one for each column of the header", cells.size(), width));
+         fmt::format("{} cell{}, expected {}, one for each column of the header", cells.size(),
+                     cells.size() == 1 ? "" : "s", width));
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     requireShort(cells[wanted[i]], table.file, line);
     std::string cell(cells[wanted[i]]);
@@ -151,7 +152,8 @@ std::string readCsvText(const std::filesystem::path& file) {
   try {
     return readText(file, bounds);
   } catch (const TextRefusal& refusal) {
-    throw CsvError(fmt::format("{}:{}: error: {}", shownPath(file.string()), refusal.line, refusal.what()));
+    const std::string place = refusal.line > 0 ? fmt::format(":{}", refusal.line) : "";
+    throw CsvError(fmt::format("{}{}: error: {}", shownPath(file.string()), place, refusal.what()));
   }
 }
 

@@ -131,9 +131,11 @@ OutputFolder::~OutputFolder() {
 void OutputFolder::requireSwappable() const {
   std::error_code error;
   const fs::path here = fs::current_path(error), below = shown_ / "results";
-  if (isMountPoint(folder_)) refuseToWrite(shown_, "is a mount point, expected another folder, as " + below.string());
+  if (isMountPoint(folder_))
+    refuseToWrite(shown_, "is a mount point, expected another folder, such as " + below.string());
   if (!error && std::mismatch(folder_.begin(), folder_.end(), here.begin(), here.end()).first == folder_.end())
-    refuseToWrite(shown_, "is worked in, expected another folder, as " + below.string());
+    refuseToWrite(shown_, std::string(folder_ == here ? "is the working folder" : "has the working folder in it") +
+                              ", expected another folder, such as " + below.string());
   requireWritableFolder(above_, shown_);
   const HeldFolder alone(folder_, HeldFolder::Kind::alone);
   try {

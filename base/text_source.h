@@ -8,10 +8,10 @@
 namespace ursula {
 
 /// Thrown for a text that is refused as input; the message says what is wrong and what was expected. Line and column
-/// are 1-based.
+/// are 1-based; both are 0 if the text as a whole is refused.
 class TextRefusal : public std::runtime_error {
  public:
-  explicit TextRefusal(const std::string& what, std::size_t in_line = 1, std::size_t in_column = 1)
+  explicit TextRefusal(const std::string& what, std::size_t in_line = 0, std::size_t in_column = 0)
       : std::runtime_error(what), line(in_line), column(in_column) {}
 
   std::size_t line, column;

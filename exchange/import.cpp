@@ -55,7 +55,8 @@ auto inFile(const std::filesystem::path& file, const Run& run) {
                                      : fmt::format("{}: error: {}", name, error.what()),
                       error.line);
   } catch (const TextRefusal& error) {
-    throw ImportError(fmt::format("{}:{}:{}: error: {}", name, error.line, error.column, error.what()));
+    const std::string place = error.line > 0 ? fmt::format(":{}:{}", error.line, error.column) : "";
+    throw ImportError(fmt::format("{}{}: error: {}", name, place, error.what()));
   }
 }
 

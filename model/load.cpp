@@ -26,7 +26,8 @@ void require(bool holds, std::size_t row, const char* key, const std::string& va
 }
 
 void validate(const std::vector<TimedWrench>& rows) {
-  if (rows.size() < 2) throw InvalidParameter("load.table", fmt::format("{} rows", rows.size()), ">= 2");
+  if (rows.size() < 2)
+    throw InvalidParameter("load.table", fmt::format("{} row{}", rows.size(), rows.size() == 1 ? "" : "s"), ">= 2");
   for (std::size_t i = 0; i < rows.size(); ++i) {
     require(std::isfinite(rows[i].time), i, "time", fmt::format("{}", rows[i].time), "a finite number");
     require(i == 0 || rows[i].time > rows[i - 1].time, i, "time", fmt::format("{}", rows[i].time),

@@ -126,7 +126,8 @@ void requireUnit(const Eigen::Vector4d& orientation, double within,
 std::unique_ptr<Trajectory> makePoseSpline(const std::vector<TimedPose>& poses, const PoseSplineOptions& options,
                                            const RefusePose& refuse) {
   if (poses.size() < options.at_least)
-    refuse(0, "", fmt::format("{} poses", poses.size()), fmt::format(">= {}", options.at_least));
+    refuse(0, "", fmt::format("{} pose{}", poses.size(), poses.size() == 1 ? "" : "s"),
+           fmt::format(">= {}", options.at_least));
   validate(poses, options, refuse);
   std::vector<PoseKnot> knots = knotsOf(poses);
   requireClearWay(knots, refuse);

@@ -59,6 +59,13 @@ std::string decimalPoint(const std::string& text, std::size_t line) {
   return fmt::format(", did you mean {}.{}?", found.str(1), found.str(2));
 }
 
+/// The parser's message without its own "Error", and with what was expected.
+std::string syntaxError(const std::string& message) {
+  static const std::string prefix = "Error while parsing ";
+  const std::string said = message.rfind(prefix, 0) == 0 ? "while parsing " + message.substr(prefix.size()) : message;
+  return said.find("expected ") == std::string::npos ? said + ", expected valid TOML" : said;
+}
+
 }  // namespace
 
 std::string placeAt(const std::string& file, const toml::source_position& position) {
@@ -71,8 +78,8 @@ PlacedError errorAt(const std::string& file, const toml::source_position& positi
 }
 
 PlacedError errorAt(const std::string& file, const TextRefusal& refusal) {
-  return {fmt::format("{}:{}:{}: error: {}", shownPath(file), refusal.line, refusal.column, refusal.what()),
-          refusal.line, refusal.column};
+  const std::string place = refusal.line > 0 ? fmt::format(":{}:{}", refusal.line, refusal.column) : "";
+  return {fmt::format("{}{}: error: {}", shownPath(file), place, refusal.what()), refusal.line, refusal.column};
 }
 
 toml::table parseToml(const std::string& text, const std::string& file) {
@@ -82,10 +89,8 @@ toml::table parseToml(const std::string& text, const std::string& file) {
   } catch (const TextRefusal& refusal) {
     throw errorAt(file, refusal).in(text);
   } catch (const toml::parse_error& error) {
-    throw errorAt(
-        file, error.source().begin,
-        shown(error.description(), 400) + ", expected valid TOML" + decimalPoint(text, error.source().begin.line))
-        .in(text);
+    const toml::source_position place = error.source().begin;
+    throw errorAt(file, place, syntaxError(shown(error.description(), 400)) + decimalPoint(text, place.line)).in(text);
   }
 }
 

@@ -43,12 +43,21 @@ const char* needsInWords(CheckNeeds needs) {
 
 std::string limitText(const CheckRow& row) { return fmt::format("{}: {}", name(row.from), row.limit); }
 
+/// The nearest name, else all names of the group that was named.
+std::string meant(const std::string& check) {
+  const std::vector<std::string> all = namesOfChecks();
+  if (const std::string nearest = didYouMean(check, all); !nearest.empty()) return nearest;
+  std::string group;
+  for (const std::string& name : all)
+    if (name.rfind(check + ".", 0) == 0) group += (group.empty() ? "" : ", ") + name;
+  return group.empty() ? "" : fmt::format(", did you mean one of {}?", group);
+}
+
 }  // namespace
 
 std::string explanation(const std::string& check) {
   const CheckRow* row = checkRow(check);
-  if (row == nullptr)
-    throw std::invalid_argument(fmt::format("no check '{}'{}", check, didYouMean(check, namesOfChecks())));
+  if (row == nullptr) throw std::invalid_argument(fmt::format("no check '{}'{}", check, meant(check)));
   const std::string unit = *row->unit == '\0' ? "a number" : fmt::format("in {}", row->unit);
   const std::string own = fmt::format(
       "[acceptance] \"{}\" = X in the scenario; if it is wider than the derived one, the result says so.", check);

@@ -83,7 +83,7 @@ void parseXml(const std::string& text, tinyxml2::XMLDocument& document) {
     throw ImportError(fmt::format("elements nested deeper than {}, expected a model", TINYXML2_MAX_ELEMENT_DEPTH),
                       document.ErrorLineNum());
   if (document.Error())
-    throw ImportError(fmt::format("no XML that can be read ({}), expected SDF, MJCF or URDF",
+    throw ImportError(fmt::format("not valid XML ({}), expected SDF, MJCF or URDF",
                                   tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID())),
                       document.ErrorLineNum());
   if (document.RootElement() == nullptr) throw ImportError("nothing in it, expected SDF, MJCF or URDF", 1);
@@ -140,7 +140,7 @@ std::vector<double> numbersOf(const Element& at, std::string_view text, std::siz
     i = end;
   }
   if (count != 0 && out.size() != count)
-    refuse(at, fmt::format("{} has {} numbers, expected {}", what, out.size(), count));
+    refuse(at, fmt::format("{} has {} number{}, expected {}", what, out.size(), out.size() == 1 ? "" : "s", count));
   return out;
 }
 

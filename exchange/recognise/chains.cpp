@@ -110,10 +110,14 @@ std::size_t findBase(const ModelGraph& graph, const Groups& groups, const Net& n
   for (std::size_t i = 0; i < groups.groups.size(); ++i)
     if (groups.groups[i].fixed && !net.at(i).empty()) return i;
   const std::vector<std::size_t> hubs = net.hubs();
+  if (hubs.empty())
+    throw ImportError(
+        "no body is joined to the world or to a static body, and none has three joints: the file has no base, "
+        "expected one");
   throw ImportError(
-      fmt::format("nothing that moves is joined to the world or to a static body; --base BODY names the "
-                  "fixed body: {}",
-                  hubs.empty() ? "but no body has three joints" : net.names(hubs)));
+      fmt::format("no moving body is joined to the world or to a static body, expected a base; name it with --base "
+                  "BODY: {}",
+                  net.names(hubs)));
 }
 
 std::size_t findPlatform(const ModelGraph& graph, const Groups& groups, const Net& net, const ImportChoices& choices,
@@ -273,7 +277,8 @@ Chains findChains(const ModelGraph& graph, const Groups& groups, const ImportCho
     }
   const std::size_t count = out.legs.empty() ? net.at(out.base).size() : out.legs.size();
   if (count < 3 || count > 6)
-    throw ImportError(fmt::format("{} joints at the base, {}, expected three to six legs", count, net.name(out.base)));
+    throw ImportError(fmt::format("{} joint{} at the base, {}, expected three to six legs", count,
+                                  count == 1 ? "" : "s", net.name(out.base)));
   if (arriving != count)
     throw ImportError(fmt::format("{} joints at the base, {}, and {} at the platform, {}, expected one a leg at either",
                                   count, net.name(out.base), arriving, net.name(out.platform)));

@@ -156,8 +156,9 @@ class Recogniser {
       usual.push_back(shown(graph_.joints[driven_as_a_rule.joint].name));
     }
     throw ImportError(
-        fmt::format("{} driven joints, expected six:{} --actuated J,… names them. Candidates: {}{}", driven,
-                    driven == 0 ? fmt::format(" {} says nothing of motors here;", upper()) : "", fmt::join(names, ", "),
+        fmt::format("{} driven joint{}, expected six{}. Name all of them with --actuated J,…; candidates: {}{}", driven,
+                    driven == 1 ? "" : "s", driven == 0 ? fmt::format("; {} says nothing of motors here", upper()) : "",
+                    fmt::join(names, ", "),
                     usual.size() == 6 ? fmt::format(". As a rule: --actuated {}", fmt::join(usual, ",")) : ""));
   }
 

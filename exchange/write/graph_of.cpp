@@ -33,7 +33,7 @@ class Builder {
     if (graph.name != scenario.name)
       note(fmt::format("The name is written '{}', as other characters are not for names everywhere", graph.name),
            "name", 0, "1");
-    note("The motion is left out: the file has the machine at its first instant", "trajectory",
+    note("The file has the machine at its first instant; it leaves out the motion", "trajectory",
          scenario.trajectory->duration(), "s");
     if (scenario.load) noteLoad(*scenario.load);
   }

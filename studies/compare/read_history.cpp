@@ -1,4 +1,5 @@
 #include "base/csv.h"
+#include "base/shown_text.h"
 #include "report/run.h"
 #include "studies/compare/compare.h"
 
@@ -19,6 +20,9 @@ TimeSeries readHistory(const std::filesystem::path& file_or_folder) {
   std::error_code ignored;
   const bool is_folder = std::filesystem::is_directory(file_or_folder, ignored);
   if (is_folder) report::refuseMixture(file_or_folder);
+  if (file_or_folder.extension() == ".toml")
+    throw CsvError(shownPath(file_or_folder.string()) +
+                   ": error: a file of keys (TOML), expected a result folder or a CSV file");
   return historyOf(readCsv(is_folder ? historyIn(file_or_folder) : file_or_folder, {{}, false}));
 }
 

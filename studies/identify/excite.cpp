@@ -159,10 +159,11 @@ class ExciteSearch {
         return of;
       }
     }
-    throw UnmadeExcitation(
-        fmt::format("no motion about the pose at {:.6g} s keeps to the limits: speed {:.3g}, effort {:.4g}, condition "
-                    "of B {:.4g}, margin {:.3g}",
-                    middle_.t, limits_.speed, limits_.effort, limits_.kappa, limits_.margin));
+    throw UnmadeExcitation(fmt::format(
+        "no motion of {:.3g} s about the pose at t = {:.6g} s keeps to the limits: speed {:.3g} rad/s or "
+        "m/s, effort {:.4g} N m or N, condition of B {:.4g}, margin {:.3g}, reach {:.3g} m, turn {:.3g} rad; "
+        "expected a longer period or wider limits",
+        period_, middle_.t, limits_.speed, limits_.effort, limits_.kappa, limits_.margin, limits_.reach, limits_.turn));
   }
 
   Eigen::MatrixXd shownBy(const std::vector<Motion<double>>& motions) const {

@@ -127,8 +127,9 @@ void LogGrid::markGaps(MeasuredLog& log) const {
 MeasuredLog LogGrid::finish(const std::string& file) {
   if (head_.size() > 1) settleHead();
   if (count_ - lacking_ < fewest_rows)
-    throw CsvError(fmt::format("{}: error: {} rows{}, expected at least {}", shownPath(file), count_ - lacking_,
-                               lacking_ > 0 ? " without an empty cell" : "", fewest_rows));
+    throw CsvError(fmt::format("{}: error: {} row{}{}, expected at least {}", shownPath(file), count_ - lacking_,
+                               count_ - lacking_ == 1 ? "" : "s", lacking_ > 0 ? " without an empty cell" : "",
+                               fewest_rows));
   MeasuredLog log;
   log.file = file;
   log.file_rows = count_;
@@ -144,9 +145,9 @@ MeasuredLog LogGrid::finish(const std::string& file) {
   if (const std::size_t filled = rows_ - (count_ - lacking_); filled > 0)
     log.findings.push_back(
         {"drop_outs", -1, static_cast<double>(filled), "rows",
-         fmt::format("{} of {} rows are missing in {} gaps, and {} have empty cells; up to {} in a row are filled by a "
+         fmt::format("of {} rows {} are missing (gaps: {}) and {} have empty cells; up to {} in a row are filled by a "
                      "cubic, what is near longer gaps is left out",
-                     filled, rows_, gaps_, lacking_, most_filled)});
+                     rows_, rows_ - count_, gaps_, lacking_, most_filled)});
   if (const double jitter = std::sqrt(jitter_ / static_cast<double>(rows_)); jitter > 0.05)
     log.findings.push_back(
         {"jitter", -1, jitter, "steps",

@@ -88,7 +88,9 @@ class LogReader {
  public:
   LogReader(const LogOptions& options, const Manipulator& machine)
       : machine_(machine), file_(options.file.string()), stream_(seekable(options.file), std::ios::binary) {
-    if (!stream_) throw CsvError(fmt::format("{}: error: cannot be read", shownPath(file_)));
+    if (!stream_)
+      throw CsvError(fmt::format("{}: error: {}, expected a log as CSV", shownPath(file_),
+                                 std::filesystem::exists(options.file) ? "cannot be read" : "no such file"));
     std::string head(std::size_t{1} << 16, '\0');
     stream_.read(head.data(), static_cast<std::streamsize>(head.size()));
     head.resize(static_cast<std::size_t>(stream_.gcount()));
@@ -132,8 +134,8 @@ class LogReader {
     if (dialect_.decimal_comma) std::replace(line.begin(), line.end(), ',', '.');
     const std::vector<std::string_view> cells = splitCells(line, dialect_.separator);
     if (cells.size() < width_)
-      throw CsvError(
-          fmt::format("{}:{}: error: {} cells, expected at least {}", shownPath(file_), line_, cells.size(), width_));
+      throw CsvError(fmt::format("{}:{}: error: {} cell{}, expected at least {}", shownPath(file_), line_, cells.size(),
+                                 cells.size() == 1 ? "" : "s", width_));
     double t = not_there;
     for (const LogColumn& column : columns_.columns)
       (column.quantity == LogQuantity::time ? t : row[slotOf(column, columns_)]) =

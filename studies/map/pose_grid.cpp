@@ -102,9 +102,11 @@ PoseGrid::PoseGrid(const Scenario& scenario, const std::array<GridAxis, grid_axe
     if (size_ > most_poses / count) throw GridError("more than 100 million poses: expected fewer");
     size_ *= count;
   }
-  if (varying_.size() != 2 && varying_.size() != 3)
-    throw GridError(
-        fmt::format("{} of x, y, z, roll, pitch, yaw vary, expected two or three with FROM,TO,COUNT", varying_.size()));
+  if (varying_.size() == 2 || varying_.size() == 3) return;
+  std::string names;
+  for (const std::size_t i : varying_) names += (names.empty() ? "" : ", ") + std::string(grid_axis_names[i]);
+  throw GridError(fmt::format("{} {} ({}), expected two or three with FROM,TO,COUNT", varying_.size(),
+                              varying_.size() == 1 ? "coordinate varies" : "coordinates vary", names));
 }
 
 std::array<double, grid_axes> PoseGrid::at(std::size_t k) const {

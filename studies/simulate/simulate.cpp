@@ -214,8 +214,9 @@ Simulation simulate(const Scenario& scenario, SimulationEngine engine, const Eff
 Simulation simulate(const Scenario& scenario, SimulationEngine engine, const TorqueFile& torques,
                     const Deadline& deadline) {
   if (torques.rows() < TorqueSpline::least_samples)
-    throw CsvError(fmt::format("{}: {} instants, expected at least {} to interpolate between", torques.file.string(),
-                               torques.rows(), TorqueSpline::least_samples));
+    throw CsvError(fmt::format("{}: error: {} instant{}, expected at least {} to interpolate between",
+                               torques.file.string(), torques.rows(), torques.rows() == 1 ? "" : "s",
+                               TorqueSpline::least_samples));
   const TorqueSpline spline(torques.t, torques.torques);
   return simulate(scenario, engine, spline, torques.t, scenario.simulation.tolerance, deadline);
 }

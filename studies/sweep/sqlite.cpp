@@ -60,7 +60,7 @@ std::string inWords(int code, const char* message, int system_error) {
     case SQLITE_READONLY:
       return "it cannot be written: the file or its folder is read-only";
     case SQLITE_NOTADB:
-      return "it is not an SQLite database";
+      return "not an SQLite database, expected the database of a sweep";
     case SQLITE_CORRUPT:
       return std::string("it is damaged: ") + message;
     case SQLITE_CANTOPEN:

@@ -37,7 +37,8 @@ std::vector<double> numbers(const TomlSection& table, const std::string& key) {
 
 std::vector<double> pair(const TomlSection& table, const std::string& key, const char* what) {
   std::vector<double> out = numbers(table, key);
-  if (out.size() != 2) table.fail(key, fmt::format("{} numbers, expected {}", out.size(), what));
+  if (out.size() != 2)
+    table.fail(key, fmt::format("{} number{}, expected {}", out.size(), out.size() == 1 ? "" : "s", what));
   return out;
 }
 
@@ -153,6 +154,9 @@ SlurmSettings slurmOf(const TomlSection& table) {
 }
 
 SweepFile assemble(const TomlSection& document, const std::filesystem::path& file) {
+  if (document.has("manipulator") && !document.has("scenario"))
+    document.fail("manipulator", fmt::format("a scenario, expected a sweep, which names one: scenario = \"{}\"",
+                                             file.filename().string()));
   document.allowOnly(keysOf(""));
   SweepFile sweep;
   sweep.file = file;

@@ -57,10 +57,10 @@ INSTANTIATE_TEST_SUITE_P(
         CsvRefusal{"header_only", "x,y\n", "1: error: no rows, expected at least one below the header"},
         CsvRefusal{"unnamed", "x,,y\n", "1: error: a column without a name, expected quantity_index_unit in each"},
         CsvRefusal{"duplicate", "x,y,x\n1,2,3\n", "1: error: duplicate column 'x', expected each name once"},
-        CsvRefusal{"missing", "x,y\n1,2\n3\n", "3: error: 1 cells, expected 2, one for each column of the header"},
+        CsvRefusal{"missing", "x,y\n1,2\n3\n", "3: error: 1 cell, expected 2, one for each column of the header"},
         CsvRefusal{"surplus", "x,y\n1,2,3\n", "2: error: 3 cells, expected 2, one for each column of the header"},
         CsvRefusal{"comma_at_end", "x,y\n1,2,\n", "2: error: 3 cells, expected 2, one for each column of the header"},
-        CsvRefusal{"gap", "x,y\n1,2\n\n3,4\n", "3: error: 1 cells, expected 2, one for each column of the header"},
+        CsvRefusal{"gap", "x,y\n1,2\n\n3,4\n", "3: error: 1 cell, expected 2, one for each column of the header"},
         CsvRefusal{"cell", "x,y\n1,\n", "2: error: an empty cell in column 'y', expected a finite number"},
         CsvRefusal{"word", "x,y\n1,2\n3,abc\n", "3: error: 'abc' in column 'y', expected a finite number"},
         CsvRefusal{"tail", "x\n1.5m\n", "2: error: '1.5m' in column 'x', expected a finite number"},
@@ -123,11 +123,11 @@ TEST(Csv, knowsTheLastDigitPrinted) {
 TEST(Csv, refusesAFileThatIsNotThereAndAFolder) {
   const TemporaryFolder folder;
   EXPECT_THAT(refusal<CsvError>([&] { readCsv(folder.path() / "none.csv"); }),
-              EndsWith("none.csv:1: error: no such file, expected a CSV file"));
+              EndsWith("none.csv: error: no such file, expected a CSV file"));
   folder.write("mine.csv", "x\n1\n");
   EXPECT_THAT(refusal<CsvError>([&] { readCsv(folder.path() / "mine.cvs"); }),
               EndsWith("no such file, expected a CSV file, did you mean 'mine.csv'?"));
-  EXPECT_THAT(refusal<CsvError>([&] { readCsv(folder.path()); }), EndsWith(":1: error: a folder, expected a CSV file"));
+  EXPECT_THAT(refusal<CsvError>([&] { readCsv(folder.path()); }), EndsWith(": error: a folder, expected a CSV file"));
 }
 
 TEST(Csv, writtenAndReadAgainGivesTheSameDoubles) {

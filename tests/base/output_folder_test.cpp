@@ -242,8 +242,9 @@ TEST(OutputFolder, thatIsWorkedInIsRefused) {
   for (const char* here : {"dir", "dir/sub"}) {
     const WorkingIn there(folder.path() / here);
     EXPECT_EQ(refusal<std::runtime_error>([&] { writeRun(folder.path() / "dir", "new"); }),
-              "cannot write " + (folder.path() / "dir").string() + ": is worked in, expected another folder, as " +
-                  (folder.path() / "dir/results").string());
+              "cannot write " + (folder.path() / "dir").string() + ": " +
+                  (here == std::string("dir") ? "is the working folder" : "has the working folder in it") +
+                  ", expected another folder, such as " + (folder.path() / "dir/results").string());
     writeRun("results", "new");
     EXPECT_EQ(TemporaryFolder::read("results/a"), "new") << "one below is not";
     fs::remove_all("results");
@@ -295,7 +296,7 @@ TEST(OutputFolder, thatIsOrHoldsAMountPointIsRefused) {
   folder.write("dir/notes/data/precious", "a user's");
   const auto before = contents(folder.path());
   EXPECT_EQ(refusal<std::runtime_error>([&] { writeRun(data, "new"); }),
-            "cannot write " + data.string() + ": is a mount point, expected another folder, as " +
+            "cannot write " + data.string() + ": is a mount point, expected another folder, such as " +
                 (data / "results").string());
   EXPECT_EQ(refusal<std::runtime_error>([&] { writeRun(dir, "new"); }),
             "cannot write " + dir.string() + ": " + data.string() + " cannot be carried over: Device or resource busy");

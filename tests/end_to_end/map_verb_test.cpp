@@ -83,8 +83,8 @@ TEST(Map, refusesGridsThatCannotBe) {
       {"--x 0,1,-3 --y 0,1,2", "a count of -3"},
       {"--x 0,1,2.5 --y 0,1,2", "a count of 2.5"},
       {"--x 1,1,5 --y 0,1,2", "expected two ends apart"},
-      {"--x 0,1,5", "1 of x, y, z, roll, pitch, yaw vary, expected two or three"},
-      {"--x 0,1,2 --y 0,1,2 --z 2,3,2 --yaw 0,9,2", "4 of x, y, z, roll, pitch, yaw vary"},
+      {"--x 0,1,5", "1 coordinate varies (x), expected two or three"},
+      {"--x 0,1,2 --y 0,1,2 --z 2,3,2 --yaw 0,9,2", "4 coordinates vary (x, y, z, yaw), expected two or three"},
       {"--x 0,1,100000 --y 0,1,100000", "more than 100 million poses"},
       {"--x 0,1,2000 --y 0,1,2000 --picture p.svg", "4000000 poses, expected at most 1000000"},
       {"--x 0,1,2 --y 0,1,2 --at 9", "--at 9: expected an instant of the motion, from 0 to 3 s"}};

@@ -32,7 +32,7 @@ TEST(Init, neverOverwrites) {
   ursula.write("mine.toml", "mine");
   const UrsulaRun run = ursula("init mine.toml");
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("mine.toml: this file exists and is not overwritten"));
+  EXPECT_THAT(run.err, HasSubstr("mine.toml exists, expected the name of a new file"));
   EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "mine.toml"), "mine");
 }
 
@@ -60,7 +60,8 @@ TEST(Init, refusesKindsThatThereAreNot) {
   const Program ursula;
   const UrsulaRun unknown = ursula("init a.toml --kind UPZ");
   EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_THAT(unknown.err, HasSubstr("--kind UPZ: no such kind of leg, expected URS, UPS, RUS, PUS, did you mean"));
+  EXPECT_THAT(unknown.err,
+              HasSubstr("--kind UPZ: unknown kind of leg, expected one of URS, UPS, RUS, PUS, did you mean"));
   EXPECT_EQ(ursula.files(), 0u);
 }
 

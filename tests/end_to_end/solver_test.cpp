@@ -39,7 +39,7 @@ class SolverRun : public testing::Test {
   Program ursula_;
 };
 
-constexpr const char* question = "\n  asked: 0,[^,]+(,[^,\n]+){18}\n  got:   ";
+constexpr const char* question = "\n  question: 0,[^,]+(,[^,\n]+){18}\n  answer:   ";
 
 TEST_F(SolverRun, aRightOnePasses) {
   const UrsulaRun run = judge("echo started >&2; exec " URSULA_EXAMPLE_SOLVER);
@@ -88,12 +88,13 @@ TEST_F(SolverRun, whatIsNoAnswerIsRefusedWithQuestionAndAnswer) {
 
 TEST_F(SolverRun, anEarlyEndIsRefused) {
   EXPECT_THAT(refused("exit 3"), AllOf(HasSubstr("the solver 'exit 3' ended with exit code 3 before it had answered"),
-                                       ContainsRegex(question + std::string("nothing\n"))));
+                                       ContainsRegex(question + std::string("none\n"))));
   EXPECT_THAT(refused("read line; echo 1,2,3,4,5,6; read line; printf 1,2"),
-              AllOf(HasSubstr("ended with exit code 0 before it had answered"), HasSubstr("got:   1,2\n")));
+              AllOf(HasSubstr("ended with exit code 0 before it had answered"), HasSubstr("answer:   1,2\n")));
   EXPECT_THAT(refused("read line; kill -9 $$"), HasSubstr("was ended by signal 9 (Killed) before it had answered"));
-  EXPECT_THAT(refused("no-such-program-anywhere"),
-              AllOf(HasSubstr("not found"), HasSubstr("ended with exit code 127")));
+  EXPECT_THAT(
+      refused("no-such-program-anywhere"),
+      AllOf(HasSubstr("not found"), HasSubstr("ended with exit code 127 (command not found) before it had answered")));
 }
 
 /// Whether a process runs; a dead one that nobody has waited for does not.
@@ -114,7 +115,7 @@ bool ends(const std::filesystem::path& file) {
 
 TEST_F(SolverRun, oneThatHangsIsEndedWithItsChildren) {
   EXPECT_THAT(refused("sleep 1000 & echo $! > child; echo $$ > self; wait", "--solver-timeout 0.3"),
-              AllOf(HasSubstr("gave no answer within 0.3 s"), ContainsRegex(question + std::string("nothing\n"))));
+              AllOf(HasSubstr("gave no answer within 0.3 s"), ContainsRegex(question + std::string("none\n"))));
   EXPECT_TRUE(ends(folder() / "child"));
   EXPECT_TRUE(ends(folder() / "self"));
 }
@@ -164,7 +165,7 @@ TEST_F(SolverRun, aSuiteStartsItForEachScenario) {
 
 TEST_F(SolverRun, theScenariosPathIsInTheEnvironment) {
   EXPECT_THAT(refused("read line; echo \"$URSULA_SCENARIO\""),
-              HasSubstr("got:   " + std::filesystem::canonical(folder()).string() + "/quick.toml"));
+              HasSubstr("answer:   " + std::filesystem::canonical(folder()).string() + "/quick.toml"));
 }
 
 }  // namespace

@@ -114,12 +114,12 @@ TEST(SweepVerb, refusesInOneLineWhatCannotBe) {
   };
   refused("bad.toml",
           "bad.toml:3:10: error: design: 'randon', expected 'grid', 'random' or 'sobol', did you mean 'random'?");
-  refused("none.toml", "none.toml:1:1: error: no such file");
+  refused("none.toml", "none.toml: error: no such file");
   refused("other.toml --db s.db", "s.db: error: is of another sweep, s.toml");
   refused("s.toml --shard 0/4", "--shard 0/4: expected I/N with I from 1 to N");
   refused("s.toml --shard 5/4", "--shard 5/4: expected I/N");
   refused("s.toml --shard 1/4x", "--shard 1/4x: expected I/N");
-  refused("s.toml --db bad.toml", "bad.toml: error: it is not an SQLite database");
+  refused("s.toml --db bad.toml", "bad.toml: error: not an SQLite database, expected the database of a sweep");
   refused("s.toml --pointwise", "--pointwise: expected a sweep with what = \"validate\"");
   refused("show s.toml 50", "point 50: s.toml has points 0 to 49");
   refused("merge s.db none.db --db all.db", "none.db: error: it cannot be opened");

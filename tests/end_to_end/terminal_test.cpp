@@ -147,7 +147,7 @@ TEST(Open, saysWhereThereIsNoReportOrNoBrowser) {
   std::filesystem::create_directory(ursula.folder() / "out");
   const UrsulaRun none = ursula("open out");
   EXPECT_EQ(none.exit_code, 2);
-  EXPECT_THAT(none.err, HasSubstr("out: neither report.html nor index.html in it"));
+  EXPECT_THAT(none.err, HasSubstr("out has neither report.html nor index.html"));
   ursula.write("out/report.html", "");
   ::unsetenv("BROWSER");
   const std::string path = std::getenv("PATH");

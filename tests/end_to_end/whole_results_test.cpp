@@ -198,7 +198,7 @@ TEST(WholeResults, thatCannotBeWrittenAreRefusedBeforeAnythingIsComputed) {
       {"a.toml b.toml --out out/two/deeper", "two is a file, expected a folder"},
       {"a.toml b.toml --out closed/new", "closed is read-only"},
       {"a.toml --out closed", "closed is read-only"},
-      {"a.toml --out .", ".: is worked in, expected another folder, as ./results"},
+      {"a.toml --out .", ".: is the working folder, expected another folder, such as ./results"},
   };
   for (const auto& [call, why] : calls) {
     const UrsulaRun run = ursula("validate " + call);

@@ -24,7 +24,9 @@ TEST(ExportVerb, WritesToStandardOutputOrToAFile) {
     EXPECT_THAT(kept.out, IsEmpty());
     EXPECT_THAT(shown.out, StartsWith("<?xml"));
     EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "models/machine.xml"), shown.out);
-    EXPECT_THAT(shown.err, HasSubstr("note: trajectory: The motion is left out"));
+    EXPECT_THAT(
+        shown.err,
+        HasSubstr("note: trajectory: The file has the machine at its first instant; it leaves out the motion ("));
   }
 }
 

@@ -114,7 +114,7 @@ TEST(LoadHistory, refusesWhatIsNoHistory) {
     fault(rows);
     return refusedParameter([&] { LoadHistory history(rows); });
   };
-  EXPECT_THAT(refused([](auto& r) { r.resize(1); }), FieldsAre("load.table", "1 rows", ">= 2"));
+  EXPECT_THAT(refused([](auto& r) { r.resize(1); }), FieldsAre("load.table", "1 row", ">= 2"));
   EXPECT_THAT(refused([](auto& r) { r[2].time = 1.0; }), FieldsAre("load.table[3].time", "1", "> 1, the time before"));
   EXPECT_THAT(refused([&](auto& r) { r[0].time = nan; }), FieldsAre("load.table[1].time", "nan", "a finite number"));
   EXPECT_THAT(refused([&](auto& r) { r[1].wrench.force.y() = nan; }),

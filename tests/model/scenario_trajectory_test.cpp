@@ -186,7 +186,7 @@ TEST(ScenarioLoad, refusesWhatIsNoLoad) {
             "load.frame: 'bas', expected 'base' or 'platform', did you mean 'base'?");
   EXPECT_EQ(load("[load]\ntable = [{ time = 0 }, { time = @0 }]\n"),
             "load.table[2].time: 0, expected > 0, the time before");
-  EXPECT_EQ(load("[load]\ntable = @[{ time = 0 }]\n"), "load.table: 1 rows, expected >= 2");
+  EXPECT_EQ(load("[load]\ntable = @[{ time = 0 }]\n"), "load.table: 1 row, expected >= 2");
   EXPECT_EQ(load("[load]\ntable = [{ time = 0, @wrench = 1 }]\n"),
             "unknown key 'wrench' in load.table[1], expected 'time', 'force' or 'moment'");
   EXPECT_EQ(load("[load]\nfile = @\"\"\n"), "load.file: an empty path, expected a file");

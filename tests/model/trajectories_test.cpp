@@ -159,7 +159,7 @@ using Points = std::vector<TimedPose>;
 INSTANTIATE_TEST_SUITE_P(
     All, RefusedWaypoints,
     testing::Values(
-        PointRefusal{"one", [](Points& p) { p.resize(1); }, "trajectory.points", "1 poses", ">= 2"},
+        PointRefusal{"one", [](Points& p) { p.resize(1); }, "trajectory.points", "1 pose", ">= 2"},
         PointRefusal{"none", [](Points& p) { p.clear(); }, "trajectory.points", "0 poses", ">= 2"},
         PointRefusal{"late", [](Points& p) { p[0].time = 0.1; }, "trajectory.points[1].time", "0.1", "0, since"},
         PointRefusal{"equal", [](Points& p) { p[2].time = 0.9; }, "trajectory.points[3].time", "0.9", "> 0.9"},

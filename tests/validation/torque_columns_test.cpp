@@ -141,7 +141,7 @@ TEST(TorqueColumns, refusesWhatIsNotCertainWithTheOptionThatReadsIt) {
   const std::string said = refusal<CsvError>([] { parseTorqueFile(uncertain, "a.csv"); });
   EXPECT_THAT(said, AllOf(StartsWith("a.csv:1: error: missing column 't_s', expected it in the header"),
                           HasSubstr("its columns, separated by ';', are: zeit, T1, T2, T3, T4, T5, T6"),
-                          EndsWith("say so: --map t_s=zeit --map tau_1_Nm=T1 --map tau_2_Nm=T2 --map tau_3_Nm=T3 "
+                          EndsWith("add --map t_s=zeit --map tau_1_Nm=T1 --map tau_2_Nm=T2 --map tau_3_Nm=T3 "
                                    "--map tau_4_Nm=T4 --map tau_5_Nm=T5 --map tau_6_Nm=T6")));
   // The named option does read the file.
   const ColumnMap map = parseColumnMap(
@@ -222,10 +222,11 @@ TEST(SlidingMotors, anotherUnitIsRefusedByTheColumnThatIsWanted) {
     return refusal<CsvError>([&] { parseTorqueFile(header + plain_rows, "a.csv", {}, motors); });
   };
   EXPECT_EQ(refused(plain_header, mixedMotors()),
-            "a.csv:1: error: 'tau_3_Nm', but motor 3 slides: expected 'tau_3_N', N");
-  EXPECT_EQ(refused(mixed_header, {}), "a.csv:1: error: 'tau_3_N', but motor 3 turns: expected 'tau_3_Nm', N m");
+            "a.csv:1: error: column 'tau_3_Nm': motor 3 slides and has a force, expected 'tau_3_N' in N");
+  EXPECT_EQ(refused(mixed_header, {}),
+            "a.csv:1: error: column 'tau_3_N': motor 3 turns and has a torque, expected 'tau_3_Nm' in N m");
   EXPECT_EQ(refusal<CsvError>([] { parseColumnMap({"tau_3_Nm=x"}, mixedMotors()); }),
-            "--map tau_3_Nm=x: motor 3 slides: expected 'tau_3_N', N");
+            "--map tau_3_Nm=x: motor 3 slides and has a force, expected 'tau_3_N' in N");
   // The unit of an unneeded column does not matter.
   const TorqueFile both = parseTorqueFile(
       "tau_3_Nm," + mixed_header + "9," + plain_rows.substr(0, plain_rows.find('\n')), "a.csv", {}, mixedMotors());

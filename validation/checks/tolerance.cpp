@@ -88,8 +88,8 @@ void requireTellingTolerance(const Scenario& scenario) {
   throw ScenarioError(inEffortWords(
       effortNoun(scenario.manipulator->motors()),
       fmt::format(
-          "{}: the tolerance allows {:.6g} {}, and the largest effort of the motion is {:.6g} {}: torques of zero "
-          "would pass. Expected a smaller one; --any-tolerance takes it all the same",
+          "{}: error: at a tolerance of {:.6g} {} torques of zero would pass, because the largest effort of the "
+          "motion is {:.6g} {}; expected a smaller one, or --any-tolerance to accept it",
           scenario.name, allowed, unit, largest, unit)));
 }
 

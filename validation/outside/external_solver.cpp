@@ -44,14 +44,18 @@ class Process {
 
  private:
   std::string why(LineProcess::End end) {
-    if (end == LineProcess::End::closed) return process_.ending() + " before it had answered";
+    if (end == LineProcess::End::closed) {
+      const std::string ending = process_.ending();
+      const bool is_missing = ending == "ended with exit code 127";  // by sh
+      return ending + (is_missing ? " (command not found)" : "") + " before it had answered";
+    }
     if (end == LineProcess::End::late) return fmt::format("gave no answer within {:g} s", options_.timeout);
     return "answered without an end of line";
   }
 
   [[noreturn]] void refuse(const std::string& what, const std::string& question, const std::string& answer) const {
-    throw SolverProcessError(fmt::format("the solver '{}' {}\n  asked: {}\n  got:   {}", options_.command, what,
-                                         question, answer.empty() ? "nothing" : shown(answer, most_shown)));
+    throw SolverProcessError(fmt::format("the solver '{}' {}\n  question: {}\n  answer:   {}", options_.command, what,
+                                         question, answer.empty() ? "none" : shown(answer, most_shown)));
   }
 
   ExternalSolverOptions options_;

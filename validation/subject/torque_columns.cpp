@@ -92,7 +92,7 @@ class Finder {
       const std::string name = targetName(motors_, motor);
       if (by_map_or_name.count(name) > 0) continue;
       if (motor >= 0 && !meaning.fits(motors_, motor))
-        wrong_unit_.emplace(name, fmt::format("'{}', but {}", column, whatItTakes(motors_, motor)));
+        wrong_unit_.emplace(name, fmt::format("column '{}': {}", column, whatItTakes(motors_, motor)));
       else if (!found_.emplace(name, TorqueColumn{name, column, meaning.power}).second)
         fail(fmt::format("'{}' and '{}' may both be {}, expected one; choose by --map {}", found_.at(name).source,
                          column, name, quoted(name + "=" + column)));
@@ -125,6 +125,7 @@ class Finder {
 
   std::string options(const std::vector<std::string>& free) const {
     std::string out;
+    std::vector<std::string> unguessed;
     std::size_t next = 0;
     for (const std::string& name : targets_) {
       if (found_.count(name) > 0) continue;
@@ -136,9 +137,17 @@ class Finder {
                   const auto digit = cell.find_first_of("0123456789");
                   return number.empty() ? false : digit != std::string::npos && cell.substr(digit, 1) == number;
                 });
-      out += fmt::format(" --map {}", column == free.end() ? name + "=COLUMN" : quoted(name + "=" + *column));
+      if (column == free.end())
+        unguessed.push_back(name);
+      else
+        out += fmt::format(" --map {}", quoted(name + "=" + *column));
     }
-    return "; if that is what its columns hold, say so:" + out;
+    if (unguessed.empty()) return "; if that is what its columns hold, add" + out;
+    out += fmt::format(" --map {}=COLUMN", unguessed.front());
+    unguessed.erase(unguessed.begin());
+    const std::string likewise =
+        unguessed.empty() ? "" : fmt::format(", and likewise for {}", fmt::join(unguessed, ", "));
+    return "; if its columns hold them under other names, add" + out + likewise;
   }
 
   const CsvDialect& dialect_;

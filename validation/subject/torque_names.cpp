@@ -81,7 +81,8 @@ std::vector<std::string> targetNames(const Motors& motors) {
 
 std::string whatItTakes(const Motors& motors, int k) {
   const bool slides = motors[static_cast<std::size_t>(k)].slides();
-  return fmt::format("motor {} {}: expected '{}', {}", k + 1, slides ? "slides" : "turns", effortColumn(motors, k),
+  return fmt::format("motor {} {}, expected '{}' in {}", k + 1,
+                     slides ? "slides and has a force" : "turns and has a torque", effortColumn(motors, k),
                      slides ? "N" : "N m");
 }
 
