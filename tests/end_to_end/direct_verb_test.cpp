@@ -88,6 +88,10 @@ TEST_F(DirectVerb, ListsPosesOutOfReach) {
   }
   EXPECT_GT(far, 0);
   EXPECT_NE(run.err.find("out of reach"), std::string::npos) << run.err;
+  const auto real = static_cast<int>(poses.rows());
+  const std::string counts = "8 solutions: " + std::to_string(real) + " real pose" + (real == 1 ? "" : "s") + ", " +
+                             std::to_string(8 - real) + " complex\n";
+  EXPECT_EQ(run.err.substr(0, counts.size()), counts) << "they add up";
 }
 
 TEST_F(DirectVerb, WritesTheSameToAFile) {

@@ -114,6 +114,8 @@ TEST(SweepVerb, refusesInOneLineWhatCannotBe) {
   };
   refused("bad.toml",
           "bad.toml:3:10: error: design: 'randon', expected 'grid', 'random' or 'sobol', did you mean 'random'?");
+  refused("'" URSULA_SCENARIOS "/paper-helix.toml'",
+          "manipulator: a scenario, expected a sweep, which names one: scenario = \"paper-helix.toml\"");
   refused("none.toml", "none.toml: error: no such file");
   refused("other.toml --db s.db", "s.db: error: is of another sweep, s.toml");
   refused("s.toml --shard 0/4", "--shard 0/4: expected I/N with I from 1 to N");

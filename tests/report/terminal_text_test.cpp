@@ -159,6 +159,12 @@ TEST(CheckHelp, isAPageWithLinesOfAtMostAHundredColumns) {
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(), "no check 'torque.pontwise', did you mean 'torque.pointwise'?");
   }
+  try {
+    report::explanation("replay");
+    ADD_FAILURE() << "a group is no check";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith("no check 'replay', did you mean one of replay."));
+  }
 }
 
 }  // namespace
