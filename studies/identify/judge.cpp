@@ -19,6 +19,9 @@ constexpr double risk_of_number = 0.015, risk_outside = 0.015, risk_of_squares =
 constexpr std::size_t most_causes = 6;
 /// Deviations of a normal variable that 95 % do not exceed.
 constexpr double one_sided = 1.645;
+/// A sum of columns below this share of their sizes is their error: they are one-sided differences with a step of 1e-6,
+/// times a curvature that reaches 100 near singular poses. Sums that mean something are above 1e-3.
+constexpr double resolved = 1e-4;
 /// Suspects are indistinguishable if the squares of their scores differ by less.
 constexpr double alike = 4;
 
@@ -227,7 +230,10 @@ std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& compa
       all.column += out[legs[k]].column;
       if (out[legs[k]].direction.nominal != all.direction.nominal) all.column.setZero();
     }
-    if (legs.size() > 1 && !all.column.isZero(0)) out.push_back(all);
+    // What moves the whole machine changes no effort: its sum is the error of the parts' differences.
+    double parts = 0;
+    for (const std::size_t leg : legs) parts += out[leg].column.norm();
+    if (legs.size() > 1 && all.column.norm() > resolved * parts) out.push_back(all);
   }
   for (std::size_t j = comparison.linear; j < comparison.directions.size(); ++j)
     if (const Direction& each = comparison.directions[j]; each.kind >= DirectionKind::offset)
