@@ -112,8 +112,8 @@ std::size_t findBase(const ModelGraph& graph, const Groups& groups, const Net& n
   const std::vector<std::size_t> hubs = net.hubs();
   if (hubs.empty())
     throw ImportError(
-        "no body is joined to the world or to a static body, and none has three joints: the file has no base, "
-        "expected one");
+        "no body is joined to the world or to a static body, and none has three joints: the file has no base; "
+        "--base BODY names the fixed body");
   throw ImportError(
       fmt::format("no moving body is joined to the world or to a static body, expected a base; name it with --base "
                   "BODY: {}",
