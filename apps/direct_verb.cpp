@@ -110,29 +110,23 @@ std::string legsThat(const PlatformPose& pose, Condition&& condition) {
   return legs.empty() ? "" : fmt::format("leg{} {}", legs.size() == 1 ? "" : "s", fmt::join(legs, ", "));
 }
 
-struct Counts {
-  int poses = 0;      ///< real ones that differ
-  int real = 0;       ///< the same, with their multiplicities
-  int solutions = 0;  ///< real and complex, with their multiplicities
-  int at_infinity = 0;
-};
-
-/// Says numbers that add up to all solutions found, of so many that exist.
-void sayCounts(int all, const Counts& found) {
-  const int sum = found.solutions + found.at_infinity;
-  const std::string merged =
-      found.real == found.poses ? "" : fmt::format(" ({} with their multiplicities)", found.real);
+/// Says numbers that add up to all solutions found, of `all` that exist. `counted` are real and complex ones, with
+/// their multiplicities.
+template <class Poses>
+void sayCounts(const Poses& poses, int all, int counted, int at_infinity) {
+  int differing = 0, real = 0;
+  for (const auto& pose : poses) ++differing, real += pose.multiplicity;
+  const int sum = counted + at_infinity;
+  const std::string merged = real == differing ? "" : fmt::format(" ({} with their multiplicities)", real);
   say("{}: {} real pose{}{}, {} complex{}\n",
-      sum == all ? fmt::format("{} solutions", all) : fmt::format("{} of {} solutions found", sum, all), found.poses,
-      found.poses == 1 ? "" : "s", merged, found.solutions - found.real,
-      found.at_infinity > 0 ? fmt::format(", {} at infinity", found.at_infinity) : "");
+      sum == all ? fmt::format("{} solutions", all) : fmt::format("{} of {} solutions found", sum, all), differing,
+      differing == 1 ? "" : "s", merged, counted - real,
+      at_infinity > 0 ? fmt::format(", {} at infinity", at_infinity) : "");
 }
 
 void summarise(const PlatformPoses& poses) {
   int index = 0;
-  int real = 0;
-  for (const PlatformPose& pose : poses) real += pose.multiplicity;
-  sayCounts(8, {poses.size, real, poses.counted, 0});
+  sayCounts(poses, 8, poses.counted, 0);
   for (const PlatformPose& pose : poses) {
     const std::string far = legsThat(pose, [](const LegAtPose& leg) { return !leg.in_reach; });
     const std::string behind = legsThat(pose, [](const LegAtPose& leg) { return !leg.front; });
@@ -160,29 +154,17 @@ int directOfPaper(const Scenario& scenario, const std::string& text, const Direc
 }
 
 std::string csvOf(const Manipulator& machine, const Vector6d& driven, const UpsPoses& poses) {
-  std::vector<std::string> names = {"pose",   "p_x_m",  "p_y_m",        "p_z_m",      "q_w",    "q_x",
-                                    "q_y",    "q_z",    "multiplicity", "residual_m", "side_1", "side_2",
-                                    "side_3", "side_4", "side_5",       "side_6"};
+  std::vector<std::string> names = {"pose", "p_x_m", "p_y_m", "p_z_m",        "q_w",
+                                    "q_x",  "q_y",   "q_z",   "multiplicity", "residual_m"};
+  for (int i = 1; i <= leg_count; ++i) names.push_back(fmt::format("side_{}", i));
   std::vector<std::vector<double>> columns(names.size());
   for (std::size_t k = 0; k < poses.list.size(); ++k) {
     const UpsPose& pose = poses.list[k];
-    const auto side = [&](int i) -> double { return isOnItsBranch(machine.leg(i), driven(i), pose); };
-    const std::array<double, 16> row = {static_cast<double>(k + 1),
-                                        pose.p.x(),
-                                        pose.p.y(),
-                                        pose.p.z(),
-                                        pose.q(0),
-                                        pose.q(1),
-                                        pose.q(2),
-                                        pose.q(3),
-                                        static_cast<double>(pose.multiplicity),
-                                        pose.residual,
-                                        side(0),
-                                        side(1),
-                                        side(2),
-                                        side(3),
-                                        side(4),
-                                        side(5)};
+    std::vector<double> row = {static_cast<double>(k + 1)};
+    row.insert(row.end(), pose.p.begin(), pose.p.end());
+    row.insert(row.end(), pose.q.begin(), pose.q.end());
+    row.insert(row.end(), {static_cast<double>(pose.multiplicity), pose.residual});
+    for (int i = 0; i < leg_count; ++i) row.push_back(isOnItsBranch(machine.leg(i), driven(i), pose));
     for (std::size_t column = 0; column < row.size(); ++column) columns[column].push_back(row[column]);
   }
   return csvText(names, columns);
@@ -203,9 +185,7 @@ int directOnSpheres(const Scenario& scenario, const NumbersOption& option, const
     return exit_inconclusive;
   }
   writeOutput(options.out, csvOf(machine, driven, poses));
-  int real = 0;
-  for (const UpsPose& pose : poses.list) real += pose.multiplicity;
-  sayCounts(40, {static_cast<int>(poses.list.size()), real, poses.counted, poses.at_infinity});
+  sayCounts(poses.list, 40, poses.counted, poses.at_infinity);
   if (const int leg = beyondStroke(machine, driven); leg >= 0)
     say("leg {}: {:g} m is not within its stroke, expected more than {:g} m and less than {:g} m\n", leg + 1,
         driven(leg), machine.leg(leg).distal.length, machine.leg(leg).distal.length + machine.leg(leg).proximal.length);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 #include <utility>
 
 namespace ursula {
@@ -13,6 +14,10 @@ using Clock = std::chrono::steady_clock;
 constexpr double longest = 1e9;  // s; a clock of nanoseconds has 64 bits
 
 }  // namespace
+
+bool isShortage(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr || dynamic_cast<const OutOfTime*>(&error) != nullptr;
+}
 
 struct Deadline::Shared {
   double seconds = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -8,11 +9,14 @@
 
 namespace ursula {
 
-/// Thrown when the time is up. Code that turns errors into results passes it on, because it says nothing about the
-/// machine. what() is "the time limit of 600 s was reached" or "it was asked to end".
+/// Thrown when the time is up. what() is "the time limit of 600 s was reached" or "it was asked to end".
 struct OutOfTime : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+/// Whether an error is a lack of memory or time, which says nothing about the machine. Code that turns errors into
+/// results passes it on.
+bool isShortage(const std::exception& error);
 
 /// Says when long work has to end: after some seconds, once somebody asks for it, or never (the default). Copies share
 /// one end. It is cheap to copy and to ask.

@@ -27,15 +27,11 @@ BodyMotion<double> bodyMotion(const SimTK::State& state, const SimTK::MobilizedB
 
 /// Wraps the torques to note a lack of memory or time, because Simbody takes every exception for too long a step.
 SimbodyLoop::TorqueHistory noting(std::exception_ptr& lack, const SimbodyLoop::TorqueHistory& torques) {
-  const auto note = [&lack] { lack = std::current_exception(); };
-  return [note, &torques](double t) {
+  return [&lack, &torques](double t) {
     try {
       return torques(t);
-    } catch (const std::bad_alloc&) {
-      note();
-      throw;
-    } catch (const OutOfTime&) {
-      note();
+    } catch (const std::exception& error) {
+      if (isShortage(error)) lack = std::current_exception();
       throw;
     }
   };
@@ -222,9 +218,8 @@ SimbodyLoop::Counters SimbodyLoop::integrateRungeKuttaMerson(double accuracy, co
       while (integrator.getTime() < instant) integrator.stepTo(instant);
       show();
     }
-  } catch (const std::bad_alloc&) {
-    lack = std::current_exception();
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    if (isShortage(error)) lack = std::current_exception();
     counters.gave_up = true;  // the caller still reports the earlier part
   }
   counters.derivative_evaluations = loop.system.getNumRealizationsOfThisStage(SimTK::Stage::Acceleration) - before;

@@ -14,7 +14,7 @@ namespace ursula {
 namespace {
 
 /// Number of variables that one pass differentiates by: the state δ, p, ω, ṗ, ω̇, p̈, or as many parameters of the
-/// machine. One number for both halves the time to compile.
+/// machine. The kernels are compiled once, because both have the same width.
 constexpr int at_a_time = 18;
 /// A number with its derivatives.
 using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, at_a_time, 1>>;

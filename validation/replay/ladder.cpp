@@ -91,11 +91,8 @@ double contradictionBetween(const Scenario& scenario, const SimbodyLoop::TorqueH
     const Vector6d asked = torques(from + t);
     try {
       largest = larger(largest, loop.ownTwistRateError(asked).norm());
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const OutOfTime&) {
-      throw;
-    } catch (const std::exception&) {
+    } catch (const std::exception& error) {
+      if (isShortage(error)) throw;
       return std::numeric_limits<double>::infinity();  // Simbody has no accelerations at all
     }
   }

@@ -62,13 +62,10 @@ class LetGo {
     const auto [known, is_new] = reached_.try_emplace({duration, steps});
     if (is_new) try {
         known->second = endOf(duration, steps);
-      } catch (const std::bad_alloc&) {
-        reached_.erase(known);
-        throw;  // a lack of memory or time says nothing about the machine
-      } catch (const OutOfTime&) {
+      } catch (const std::exception& error) {
+        if (!isShortage(error)) return known->second;
         reached_.erase(known);
         throw;
-      } catch (const std::exception&) {
       }
     return known->second;
   }

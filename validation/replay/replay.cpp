@@ -267,11 +267,8 @@ Replay replay(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torque
     run.leavePath();
   } catch (const TooLong& error) {
     run.giveUp(error.what(), true);
-  } catch (const std::bad_alloc&) {
-    throw;  // a lack of memory or time says nothing about the motion
-  } catch (const OutOfTime&) {
-    throw;
   } catch (const std::exception& error) {
+    if (isShortage(error)) throw;
     run.giveUp(error.what(), false);  // the completed part is still reported
   }
   return run.result();

@@ -188,12 +188,8 @@ void follow(Stabilised& loop, const Subject& subject, const SimbodyLoop::TorqueH
     try {
       if (stiff) return stiffStep(radau, rate, deviation, at, h, {tolerance, three_digits});
       return stepper.try_step(rate, deviation, at, h) == odeint::success;
-    } catch (const std::bad_alloc&) {
-      throw;  // no shorter step needs less memory
-    } catch (const OutOfTime&) {
-      throw;
-    } catch (const std::exception&) {
-      if (!(tried > shortest_step * end)) throw;
+    } catch (const std::exception& error) {
+      if (isShortage(error) || !(tried > shortest_step * end)) throw;
       h = tried / 4;
       return false;
     }
@@ -257,11 +253,8 @@ StabilisedReplay stabilisedReplay(const Scenario& scenario, const Subject& subje
   }
   try {
     follow(loop, subject, found.asked.of(torques), *scenario.trajectory, deadline, found);
-  } catch (const std::bad_alloc&) {
-    throw;  // a lack of memory or time says nothing about the motion
-  } catch (const OutOfTime&) {
-    throw;
   } catch (const std::exception& error) {  // earlier results are kept
+    if (isShortage(error)) throw;
     found.stopped = error.what();
     found.gave_up = true;
   }
