@@ -41,12 +41,12 @@ struct Case {
 
 TEST(OutsideSolver, isJudgedAsWhatIsAskedOneByOne) {
   const Case here;
-  std::size_t calls = 0, instants = 0;
+  std::size_t calls = 0, motions = 0;
   const ValidationResult many = validateOutside(here.scenario, here.solver([&](std::size_t count) {
     ++calls;
-    instants += count;
+    motions += count;
   }));
-  EXPECT_GT(instants, 8 * calls) << "it was asked one by one";
+  EXPECT_GT(motions, 8 * calls) << "it was asked one by one";
   Subject single;
   single.name = "outside";
   single.torques = here.right.torques;
