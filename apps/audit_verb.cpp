@@ -8,7 +8,6 @@
 #include "apps/files_apart.h"
 #include "apps/output.h"
 #include "apps/progress.h"
-#include "apps/streams.h"
 #include "apps/verbs.h"
 #include "base/output_file.h"
 #include "base/output_folder.h"

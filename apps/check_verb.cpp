@@ -5,10 +5,9 @@
 
 #include "apps/files_apart.h"
 #include "apps/output.h"
-#include "apps/streams.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "model/scenario_excerpt.h"
 #include "model/scenario_files.h"
 #include "studies/check_scenario/check_scenario.h"

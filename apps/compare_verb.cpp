@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "apps/files_apart.h"
-#include "apps/streams.h"
-#include "apps/validate_output.h"
+#include "apps/output.h"
+#include "apps/validate_options.h"
 #include "apps/verbs.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "report/written_files.h"
 #include "studies/compare/compare_page.h"
 

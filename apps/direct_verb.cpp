@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/streams.h"
+#include "apps/output.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
 #include "model/scenario_files.h"

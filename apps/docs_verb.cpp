@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "apps/call_words.h"
+#include "apps/usage.h"
 #include "apps/verbs.h"
 #include "report/explanation.h"
 #include "studies/scenario_docs/scenario_docs.h"

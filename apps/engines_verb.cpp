@@ -6,7 +6,7 @@
 #include "apps/progress.h"
 #include "apps/verbs.h"
 #include "base/output_folder.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "model/scenario_files.h"
 #include "studies/engines/side_by_side.h"
 

@@ -4,7 +4,6 @@
 #include "apps/files_apart.h"
 #include "apps/output.h"
 #include "apps/progress.h"
-#include "apps/streams.h"
 #include "apps/verbs.h"
 #include "model/scenario_files.h"
 #include "studies/identify/excite.h"

@@ -6,7 +6,7 @@
 
 #include "apps/choice.h"
 #include "apps/files_apart.h"
-#include "apps/streams.h"
+#include "apps/output.h"
 #include "apps/verbs.h"
 #include "exchange/leg_pose.h"
 #include "exchange/write/export.h"

@@ -4,11 +4,10 @@
 #include "apps/files_apart.h"
 #include "apps/output.h"
 #include "apps/progress.h"
-#include "apps/streams.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
 #include "base/output_folder.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "model/scenario_files.h"
 #include "studies/identify/identify.h"
 

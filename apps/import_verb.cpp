@@ -4,9 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/output.h"
-#include "apps/streams.h"
 #include "apps/verbs.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "exchange/import.h"
 
 namespace ursula {

@@ -7,10 +7,9 @@
 #include <memory>
 
 #include "apps/embedded_scenario.h"
-#include "apps/streams.h"
+#include "apps/output.h"
 #include "apps/verbs.h"
-#include "base/nearest.h"
-#include "base/shell_word.h"
+#include "base/text.h"
 
 namespace ursula {
 namespace {

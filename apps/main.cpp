@@ -7,7 +7,7 @@
 #include <new>
 
 #include "apps/files_apart.h"
-#include "apps/streams.h"
+#include "apps/output.h"
 #include "apps/usage.h"
 #include "apps/verbs.h"
 #include "base/csv.h"

@@ -4,7 +4,7 @@
 #include "apps/verbs.h"
 #include "base/csv.h"
 #include "model/scenario_files.h"
-#include "studies/simulate/pose_series.h"
+#include "studies/simulate/simulate.h"
 
 namespace ursula {
 namespace {

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "apps/streams.h"
-#include "base/shown_text.h"
+#include "apps/output.h"
 #include "base/start_threads.h"
+#include "base/text.h"
 
 namespace ursula {
 namespace {

@@ -15,8 +15,7 @@
 #include "apps/verbs.h"
 #include "base/output_file.h"
 #include "model/scenario_files.h"
-#include "studies/prove/prove_page.h"
-#include "studies/prove/summary.h"
+#include "studies/prove/prove.h"
 
 namespace ursula {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "apps/choice.h"
 #include "apps/files_apart.h"
-#include "apps/streams.h"
-#include "apps/torque_option.h"
+#include "apps/output.h"
+#include "apps/validate_options.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
 #include "model/scenario_files.h"

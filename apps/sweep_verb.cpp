@@ -6,8 +6,8 @@
 #include <memory>
 #include <thread>
 
+#include "apps/output.h"
 #include "apps/progress.h"
-#include "apps/streams.h"
 #include "apps/sweep_verbs.h"
 #include "apps/verbs.h"
 #include "studies/sweep/run.h"

@@ -8,10 +8,9 @@
 #include <thread>
 #include <utility>
 
+#include "apps/output.h"
 #include "apps/progress.h"
-#include "apps/streams.h"
-#include "apps/torque_option.h"
-#include "apps/validate_output.h"
+#include "apps/validate_options.h"
 #include "apps/verbs.h"
 #include "base/output_folder.h"
 #include "model/scenario.h"

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "apps/output.h"
-#include "base/leading_number.h"
+#include "base/text.h"
 #include "report/run.h"
 
 namespace ursula {

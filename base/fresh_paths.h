@@ -52,4 +52,22 @@ bool writeAll(int descriptor, std::string_view content);
 /// Makes changes in a folder survive a loss of power, if the file system can.
 void syncFolder(const std::filesystem::path& folder);
 
+/// Locks a folder: with others while files are written in it, alone while it is listed or swapped. Processes wait for
+/// each other some seconds. Holds nothing where a folder cannot be locked, as on some network file systems.
+class HeldFolder {
+ public:
+  enum class Kind { with_others, alone };
+
+  HeldFolder(const std::filesystem::path& folder, Kind kind);
+  ~HeldFolder();
+  HeldFolder(HeldFolder&& from) noexcept;
+  HeldFolder& operator=(HeldFolder&&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
+/// Holds a folder and all above it, with others, because another run may swap any of them.
+std::vector<HeldFolder> heldWithFoldersAbove(const std::filesystem::path& folder);
+
 }  // namespace ursula

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/fresh_paths.h"
-#include "base/held_folder.h"
 
 namespace ursula {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "base/text_source.h"
 #include "exchange/import_error.h"
 #include "exchange/read/readers.h"

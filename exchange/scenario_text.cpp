@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "base/shown_text.h"
+#include "base/text.h"
 
 namespace ursula::exchange {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/errors.h"
-#include "base/quintic_hermite.h"
+#include "base/quintic_spline.h"
 #include "base/real50.h"
 
 namespace ursula {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "model/machine_numbers.h"
 #include "model/toml_reader.h"
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
+#include "base/scalar.h"
 #include "model/motion.h"
 
 namespace ursula {
@@ -9,5 +11,12 @@ namespace ursula {
 /// Returns orientations of M in B as unit quaternions [w, x, y, z], as the output files give them. The first has w ≥ 0;
 /// each other has the sign nearer to its predecessor.
 std::vector<Eigen::Vector4d> quaternions(const std::vector<Motion<double>>& motions);
+
+/// An angle in radians, correctly rounded.
+double radians(double degrees);
+
+/// Returns the unit quaternion [w, x, y, z] of roll, pitch and yaw in degrees. They are rotations about the fixed axes
+/// x, y, z of B in this order, Q = R_z(yaw) R_y(pitch) R_x(roll). Each entry is correctly rounded.
+Eigen::Vector4d quaternionOf(const Vector3d& roll_pitch_yaw);
 
 }  // namespace ursula

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 
-#include "base/excerpt.h"
-#include "base/nearest.h"
-#include "base/shown_text.h"
+#include "base/text.h"
+#include "base/text_source.h"
 #include "base/toml_bounds.h"
 #include "model/check_catalogue.h"
 #include "model/scenario_excerpt.h"

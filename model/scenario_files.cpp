@@ -1,6 +1,7 @@
 #include "model/scenario_files.h"
 
-#include "base/shown_text.h"
+#include "base/text.h"
+#include "base/toml_bounds.h"
 #include "model/scenario_sections.h"
 #include "model/toml_reader.h"
 
@@ -37,6 +38,16 @@ CsvTable readCsvBeside(const TomlSection& table, const std::string& key) {
   if (!std::filesystem::exists(file, error) || std::filesystem::is_directory(file, error))
     table.fail(key, "'" + shownPath(file.string()) + "', expected a CSV file");
   return readCsv(file);
+}
+
+Scenario readScenarioOrInput(const std::filesystem::path& file) {
+  static constexpr const char* input = "<stdin>";
+  if (file != "-") return readScenario(file);
+  try {
+    return parseScenario(readStandardInput({most_toml_bytes, "a scenario in TOML"}), input);
+  } catch (const TextRefusal& refusal) {
+    throw errorAt(input, refusal);
+  }
 }
 
 }  // namespace ursula

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "model/scenario_files.h"
 #include "model/toml_reader.h"
 #include "model/toml_writer.h"

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/nearest.h"
+#include "base/text.h"
 #include "model/scenario_keys.h"
 
 namespace ursula {

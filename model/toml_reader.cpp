@@ -8,11 +8,9 @@
 #include <regex>
 #include <sstream>
 
-#include "base/leading_number.h"
-#include "base/nearest.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "base/toml_bounds.h"
-#include "model/scenario_orientation.h"
+#include "model/quaternions.h"
 
 namespace ursula {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <sstream>
 
-#include "base/leading_number.h"
+#include "base/text.h"
 
 namespace ursula {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "nocsolver/errors.h"
 #include "nocsolver/fast/fast_dynamics.h"
-#include "nocsolver/finite.h"
 #include "nocsolver/noc/noc.h"
 
 namespace ursula {

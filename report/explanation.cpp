@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "base/nearest.h"
+#include "base/text.h"
 #include "model/check_catalogue.h"
-#include "report/columns.h"
+#include "report/text.h"
 
 namespace ursula::report {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "base/shell_word.h"
+#include "base/text.h"
 #include "report/assets.h"
 #include "report/picture.h"
 #include "report/plots.h"

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/json_text.h"
 #include "report/picture.h"
 #include "report/plot_builder.h"
 #include "report/plots.h"
 #include "report/singular.h"
+#include "report/text.h"
 
 namespace ursula::report {
 namespace {

@@ -8,7 +8,7 @@
 #include <regex>
 #include <utility>
 
-#include "base/leading_number.h"
+#include "base/text.h"
 #include "report/text.h"
 
 namespace ursula::report {

@@ -17,7 +17,7 @@
 namespace ursula::report {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr std::size_t digits = 16;
 constexpr const char *run_key = "run", *series_key = "timeseries.csv sha1";

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/report.h"
+#include "report/result_facts.h"
 #include "validation/verdict/effort_words.h"
 
 namespace ursula::report {

@@ -1,17 +1,17 @@
 #include "report/terminal.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "model/check_catalogue.h"
-#include "report/columns.h"
 #include "report/quantity.h"
 #include "report/result_facts.h"
 #include "report/sections.h"
+#include "report/text.h"
+#include "report/written_files.h"
 #include "validation/verdict/effort_words.h"
 
 namespace ursula::report {
@@ -232,6 +232,32 @@ std::string quietText(const SuiteEntry& entry, bool coloured) {
 bool wantsColour(bool is_terminal, const char* no_color, const char* term) {
   const bool refused = no_color != nullptr && *no_color != '\0';
   return is_terminal && !refused && (term == nullptr || std::string(term) != "dumb");
+}
+
+namespace {
+
+Paint paintOf(const SuiteEntry& entry) {
+  if (!entry.error.empty() || entry.verdict == Verdict::fail) return Paint::bad;
+  return entry.verdict == Verdict::pass ? Paint::good : Paint::open;
+}
+
+std::string why(const SuiteEntry& entry) {
+  const Check* worst = worstCheck(entry.checks);
+  if (!entry.error.empty()) return entry.error;
+  return worst == nullptr ? "no check was made" : worst->name + " " + standing(*worst);
+}
+
+}  // namespace
+
+std::string suiteText(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir, bool coloured) {
+  std::size_t width = 0;
+  for (const SuiteEntry& entry : entries) width = std::max(width, columnsOf(entry.scenario));
+  std::string out;
+  for (const SuiteEntry& entry : entries)
+    out += fmt::format("{}  {}  {}  {}\n", painted(padded(wordOf(entry), 12), paintOf(entry), coloured),
+                       padded(entry.scenario, width), why(entry),
+                       entry.error.empty() ? (dir / entry.folder / "report.html").string() : "no report");
+  return out + countsOf(entries) + "\nindex: " + (dir / "index.html").string() + "\n";
 }
 
 }  // namespace ursula::report

@@ -21,4 +21,42 @@ std::string number(double value, int digits = 3);
 /// key without a value.
 std::string filled(std::string_view text, const std::vector<std::pair<std::string, std::string>>& values);
 
+/// Returns the number of terminal columns of a UTF-8 text, one per character.
+std::size_t columnsOf(const std::string& text);
+
+enum class Align { left, right };
+
+/// Pads `text` with spaces to `width` columns.
+std::string padded(const std::string& text, std::size_t width, Align align = Align::left);
+
+/// Formats cells by rows. Each column is as wide as its widest cell, with two spaces between and none at a line's end.
+std::vector<std::string> alignedRows(const std::vector<std::vector<std::string>>& rows,
+                                     const std::vector<Align>& columns);
+
+/// Writes `head`, then `text` from column `margin` on, wrapped between words at 100 columns.
+std::string wrapped(const std::string& head, std::size_t margin, const std::string& text);
+
+/// Adds terminal escapes for the paint if `coloured`.
+enum class Paint { good, bad, open, quiet, strong };
+std::string painted(const std::string& text, Paint paint, bool coloured);
+
+/// Appends `value` with six digits, more than a screen shows; null if it is not finite.
+void addNumber(double value, std::string& out);
+
+/// Returns "[…]" with the text that `add(item, out)` appends for each item.
+template <class Items, class Add>
+std::string jsonList(const Items& items, const Add& add) {
+  std::string out = "[";
+  for (const auto& item : items) {
+    if (out.size() > 1) out += ',';
+    add(item, out);
+  }
+  return out += ']';
+}
+
+std::string jsonNumbers(const std::vector<double>& values);
+
+/// Returns a quoted string without "<", so neither "</script" nor "<!--" can end or break the surrounding block.
+std::string jsonText(const std::string& words);
+
 }  // namespace ursula::report

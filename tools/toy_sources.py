@@ -33,7 +33,7 @@ Check judgeToy(const Scenario& scenario) {
     edits={
         "validation/checks/CMakeLists.txt": [("    torque_between.cpp\n", "    toy_check.cpp\n")],
         "validation/checks/judges.h": [("/// `torque.against_noc`: external", "Check judgeToy(const Scenario& scenario);\n\n")],
-        "model/check_rows_input.cpp": [('      {"motion.load"', """\
+        "model/check_rows.cpp": [('      {"motion.load"', """\
       {"motion.toy", "s", N::nothing, G::input, StandsOn::itself, "Toy", "Time passes.", "The motion takes some time.", "",
        LimitFrom::exact, "A duration is positive.", "Give the motion a duration."},
 """)],

@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "model/instants.h"
-#include "validation/checks/acceptance.h"
-#include "validation/checks/every_check.h"
 #include "validation/checks/families.h"
 #include "validation/checks/judges.h"
 #include "validation/checks/tolerance.h"

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "engines/open_tree.h"
-#include "model/joint_reactions.h"
 #include "model/joint_variables.h"
 #include "model/load.h"
 #include "model/manipulator.h"

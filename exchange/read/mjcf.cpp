@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "exchange/read/mjcf_parts.h"
 #include "exchange/read/readers.h"
 

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/nearest.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 
 namespace ursula::exchange {
 namespace {

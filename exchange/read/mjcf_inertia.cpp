@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/angles.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "exchange/recognise/chains.h"
 
 namespace ursula::exchange {

@@ -4,8 +4,7 @@
 
 #include <cctype>
 
-#include "base/nearest.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 
 namespace ursula::exchange {
 namespace {

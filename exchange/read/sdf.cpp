@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "exchange/read/readers.h"
 #include "exchange/read/sdf_parts.h"
 

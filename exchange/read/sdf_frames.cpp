@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/nearest.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 
 namespace ursula::exchange {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/shown_text.h"
+#include "base/text.h"
 
 namespace ursula::exchange {
 namespace {

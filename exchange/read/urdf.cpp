@@ -8,8 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "base/nearest.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "exchange/read/readers.h"
 #include "exchange/read/sdf_parts.h"
 #include "exchange/read/urdf_parts.h"

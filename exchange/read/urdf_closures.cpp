@@ -5,7 +5,7 @@
 #include <map>
 #include <sstream>
 
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "base/text_source.h"
 #include "exchange/import_error.h"
 #include "exchange/read/sdf_parts.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "exchange/read/mjcf_parts.h"
 #include "exchange/read/sdf_parts.h"
 

@@ -7,8 +7,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "base/leading_number.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 
 namespace ursula::exchange {
 namespace {

@@ -4,8 +4,7 @@
 
 #include <numeric>
 
-#include "base/nearest.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "exchange/import_error.h"
 
 namespace ursula::exchange {

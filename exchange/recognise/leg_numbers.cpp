@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/angles.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "exchange/import_error.h"
 
 namespace ursula::exchange {

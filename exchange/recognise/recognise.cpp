@@ -8,8 +8,7 @@
 #include <set>
 
 #include "base/csv_dialect.h"
-#include "base/nearest.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "exchange/import_error.h"
 #include "exchange/recognise/legs.h"
 

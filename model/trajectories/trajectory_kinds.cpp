@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "model/quaternions.h"
 #include "model/scenario_keys.h"
-#include "model/scenario_orientation.h"
 #include "model/scenario_sections.h"
 
 namespace ursula {

@@ -5,9 +5,9 @@
 #include <unsupported/Eigen/AutoDiff>
 
 #include "model/machine_numbers.h"
-#include "nocsolver/fast/kernels/leg_guard.h"
+#include "nocsolver/errors.h"
+#include "nocsolver/fast/kernels/leg_kernels.h"
 #include "nocsolver/fast/kernels/plane_dynamics.h"
-#include "nocsolver/finite.h"
 #include "nocsolver/legs/leg_model_impl.h"
 
 namespace ursula {

@@ -3,9 +3,9 @@
 // Bodies of FastDynamics; included by the sources that instantiate it.
 
 #include "nocsolver/fast/fast_dynamics.h"
-#include "nocsolver/fast/kernels/leg_guard.h"
+#include "nocsolver/fast/kernels/leg_kernels.h"
+#include "nocsolver/fast/kernels/link_terms.h"
 #include "nocsolver/fast/kernels/plane_dynamics.h"
-#include "nocsolver/fast/kernels/platform_at_p.h"
 
 namespace ursula {
 

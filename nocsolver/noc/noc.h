@@ -5,7 +5,6 @@
 
 #include <Eigen/LU>
 
-#include "model/joint_reactions.h"
 #include "model/joint_variables.h"
 #include "model/motion.h"
 #include "nocsolver/errors.h"

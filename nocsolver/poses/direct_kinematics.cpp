@@ -7,7 +7,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "nocsolver/poses/direct_kinematics_planes.h"
+#include "nocsolver/poses/direct_kinematics_parts.h"
 #include "nocsolver/poses/tracking.h"
 
 namespace ursula {

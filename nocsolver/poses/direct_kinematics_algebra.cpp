@@ -1,4 +1,4 @@
-#include "nocsolver/poses/direct_kinematics_algebra.h"
+#include "nocsolver/poses/direct_kinematics_parts.h"
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "nocsolver/poses/direct_kinematics_planes.h"
+#include "nocsolver/poses/direct_kinematics_parts.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -1,4 +1,4 @@
-#include "nocsolver/poses/direct_kinematics_roots.h"
+#include "nocsolver/poses/direct_kinematics_parts.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

@@ -7,8 +7,7 @@
 
 #include "nocsolver/legs/fixed_frame.h"
 #include "nocsolver/poses/direct_kinematics.h"
-#include "nocsolver/poses/ups_poses_newton.h"
-#include "nocsolver/poses/ups_poses_roots.h"
+#include "nocsolver/poses/ups_poses_parts.h"
 
 namespace ursula {
 namespace {

@@ -1,11 +1,9 @@
-#include "nocsolver/poses/ups_poses_collector.h"
+#include "nocsolver/poses/ups_poses_parts.h"
 
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <optional>
-
-#include "nocsolver/poses/ups_poses_newton.h"
 
 // Eigenvectors give each solution to some digits; Newton's method gives the rest. Solutions that rounding cannot
 // separate count as one multiple solution: their midpoint solves the six equations within rounding. A nearly real

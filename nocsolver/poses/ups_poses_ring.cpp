@@ -1,4 +1,4 @@
-#include "nocsolver/poses/ups_poses_ring.h"
+#include "nocsolver/poses/ups_poses_parts.h"
 
 #include <Eigen/QR>
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include "report/page.h"
 #include "report/text.h"
 #include "studies/audit/audit.h"
-#include "studies/audit/words.h"
+#include "studies/audit/remarks.h"
 
 namespace ursula {
 namespace audit {

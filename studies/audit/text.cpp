@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "studies/audit/audit.h"
-#include "studies/audit/words.h"
+#include "studies/audit/remarks.h"
 
 namespace ursula {
 namespace audit {

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "model/scenario_files.h"
-#include "studies/check_scenario/oddity.h"
 
 namespace ursula {
 

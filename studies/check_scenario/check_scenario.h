@@ -19,4 +19,17 @@ std::vector<std::string> hints(const Scenario& scenario);
 /// pose are drawn without their knees.
 std::string picture(const Scenario& scenario);
 
+/// A value that a machine or motion may have, but rarely has.
+struct Oddity {
+  std::string key;        ///< dotted, of the scenario: `manipulator.leg[2].proximal.mass`
+  std::string what;       ///< the number, the usual value, and the probable intention
+  std::string hint = {};  ///< "did you mean …?", if another unit makes it usual
+};
+
+/// "did you mean mm? 1300 mm are 1.3 m", of a number that was read in metres.
+std::string inMillimetres(double value);
+
+std::vector<Oddity> oddMachine(const Scenario& scenario);
+std::vector<Oddity> oddMotion(const Scenario& scenario);
+
 }  // namespace ursula

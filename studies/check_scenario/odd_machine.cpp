@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/check_scenario/oddity.h"
+#include "studies/check_scenario/check_scenario.h"
 
 namespace ursula {
 namespace {

@@ -12,7 +12,7 @@
 #include "model/trajectories/trajectory_kinds.h"
 #include "nocsolver/errors.h"
 #include "nocsolver/solver.h"
-#include "studies/check_scenario/oddity.h"
+#include "studies/check_scenario/check_scenario.h"
 
 namespace ursula {
 namespace {

@@ -12,7 +12,7 @@
 #include <unordered_map>
 
 #include "base/csv.h"
-#include "base/nearest.h"
+#include "base/text.h"
 #include "studies/compare/history_line.h"
 #include "studies/compare/rotations.h"
 

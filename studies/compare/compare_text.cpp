@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/csv_rows.h"
+#include "base/csv.h"
 #include "studies/compare/compare.h"
 
 namespace ursula {

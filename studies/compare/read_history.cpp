@@ -1,5 +1,5 @@
 #include "base/csv.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "report/run.h"
 #include "studies/compare/compare.h"
 

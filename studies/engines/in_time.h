@@ -1,6 +1,5 @@
 #pragma once
 
-#include "studies/engines/reference.h"
 #include "studies/engines/side_by_side.h"
 
 namespace ursula {

@@ -7,10 +7,9 @@
 #include <new>
 #include <stdexcept>
 
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "nocsolver/errors.h"
 #include "studies/engines/in_time.h"
-#include "studies/engines/reference.h"
 #include "validation/subject/motion_check.h"
 #include "validation/subject/subject.h"
 

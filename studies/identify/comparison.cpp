@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "base/csv.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "studies/identify/log_columns.h"
 #include "validation/subject/subject.h"
 

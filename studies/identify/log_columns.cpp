@@ -8,8 +8,7 @@
 #include <regex>
 
 #include "base/csv.h"
-#include "base/nearest.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "validation/subject/effort_columns.h"
 #include "validation/subject/torque_names.h"
 

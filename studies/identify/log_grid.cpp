@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/csv.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 
 namespace ursula::identification {
 namespace {

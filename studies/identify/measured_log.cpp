@@ -8,8 +8,7 @@
 #include <limits>
 
 #include "base/csv.h"
-#include "base/leading_number.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "studies/identify/log_columns.h"
 #include "studies/identify/log_grid.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "report/columns.h"
+#include "report/text.h"
 #include "studies/identify/identify.h"
 
 namespace ursula {

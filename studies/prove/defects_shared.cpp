@@ -1,12 +1,12 @@
 // Defects in the commanded motion and the load. All formulations share these, so none can see them.
 
 #include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "model/exact_trajectory.h"
 #include "studies/prove/defect_helpers.h"
+#include "studies/prove/defects.h"
 
 namespace ursula {
 namespace {
@@ -122,6 +122,17 @@ std::vector<Defect> sharedLoadDefects(const Manipulator&) {
           slopesOf("m_x + f_y / 4, not for m_x", outOfSum(3, 1, 0.25)),
           slopesOf("m_z + m_y / 2, not for m_z", outOfSum(5, 4, 0.5)),
           control(slopesOf("the components in another order: no fault", inAnotherOrder()))};
+}
+
+Subject disturbedSubject(const Scenario& scenario, const Parameter& parameter, double relative) {
+  const auto rebuilt = [&parameter, relative](const Manipulator& manipulator) {
+    ManipulatorParameters machine = manipulator.parameters();
+    parameter.disturb(machine, relative);
+    return Manipulator(machine);
+  };
+  Subject subject = nocSubject(rebuilt(*scenario.manipulator), scenario.load);
+  subject.name = fmt::format("noc with {} off by {:g}", parameter.path, relative);
+  return subject;
 }
 
 }  // namespace ursula

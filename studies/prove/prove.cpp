@@ -1,12 +1,12 @@
 #include "studies/prove/prove.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <thread>
 
@@ -128,6 +128,44 @@ RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::f
       share = std::max(share, check.value / check.limit);
     }
   }
+  return out;
+}
+
+int weakDefects(const std::vector<DefectOutcome>& outcomes) {
+  return static_cast<int>(std::count_if(outcomes.begin(), outcomes.end(), [](const DefectOutcome& outcome) {
+    return outcome.shows && !outcome.caught();
+  }));
+}
+
+int idleChecks(const std::vector<CheckProof>& checks) {
+  return static_cast<int>(
+      std::count_if(checks.begin(), checks.end(), [](const CheckProof& proof) { return !isNeeded(proof); }));
+}
+
+std::vector<std::string> catchingChecks(const std::vector<DefectOutcome>& outcomes) {
+  std::vector<std::string> checks;
+  for (const DefectOutcome& outcome : outcomes)
+    for (const std::string& check : outcome.caught_by)
+      if (std::find(checks.begin(), checks.end(), check) == checks.end()) checks.push_back(check);
+  return checks;
+}
+
+std::vector<SensitivityGroup> groupsOf(const std::vector<Sensitivity>& sensitivities) {
+  std::map<std::string, SensitivityGroup> groups;
+  for (const Sensitivity& each : sensitivities) {
+    SensitivityGroup& group = groups[each.group];
+    group.name = each.group;
+    ++group.count;
+    if (std::isinf(each.smallest_caught)) {
+      ++group.unseen;
+      continue;
+    }
+    group.smallest = std::min(group.smallest, each.smallest_caught);
+    group.largest_change = std::max(group.largest_change, each.torque_change);
+    if (each.smallest_caught > group.worst.smallest_caught) group.worst = each;
+  }
+  std::vector<SensitivityGroup> out;
+  for (const auto& [name, group] : groups) out.push_back(group);
   return out;
 }
 

@@ -3,11 +3,12 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "model/scenario.h"
-#include "studies/random/random_kind.h"
+#include "studies/random/random_recipe.h"
 #include "validation/verdict/result.h"
 
 namespace ursula {
@@ -67,5 +68,42 @@ std::vector<Sensitivity> proveSensitivities(const Scenario& scenario);
 /// The reverse test: `count` random valid scenarios from `seed` on; none may fail.
 RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::function<void(int)>& done,
                            RandomKind kind = RandomKind::URS);
+
+/// Number of effective defects that too few formulations caught.
+int weakDefects(const std::vector<DefectOutcome>& outcomes);
+
+/// Whether the check catches a defect alone or first.
+inline bool isNeeded(const CheckProof& proof) { return !proof.alone.empty() || !proof.first.empty(); }
+
+/// Number of checks that are not needed, because earlier ones catch everything that they do.
+int idleChecks(const std::vector<CheckProof>& checks);
+
+/// Every check that caught anything, in the order of its first catch.
+std::vector<std::string> catchingChecks(const std::vector<DefectOutcome>& outcomes);
+
+/// The sensitivities of one kind of parameter.
+struct SensitivityGroup {
+  std::string name;
+  int count = 0, unseen = 0;
+  Sensitivity worst;          ///< the worst of those caught
+  double smallest = 1;        ///< relative error that is caught
+  double largest_change = 0;  ///< largest torque change, relative to the largest torque, at the smallest caught error
+};
+std::vector<SensitivityGroup> groupsOf(const std::vector<Sensitivity>& sensitivities);
+
+/// All results of `ursula prove`.
+struct ProveResult {
+  std::string scenario;
+  std::optional<DefectProof> proof;  ///< nullopt if only random scenarios were tried
+  std::vector<Sensitivity> sensitivities;
+  RandomOutcomes random;
+  std::uint64_t seed = 0;  ///< seed of the first random scenario
+};
+
+/// Whether the right solver passes, every defect is caught, every check is needed and no random scenario fails.
+bool isProved(const ProveResult& found);
+
+/// Returns a page in the report's style: defects by checks, the need for each check, thresholds, random scenarios.
+std::string proveHtml(const ProveResult& found);
 
 }  // namespace ursula

@@ -1,4 +1,4 @@
-#include "studies/prove/prove_page.h"
+#include "studies/prove/prove.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include "report/quantity.h"
 #include "report/sections.h"
 #include "report/text.h"
-#include "studies/prove/summary.h"
 
 namespace ursula {
 namespace {

@@ -1,7 +1,10 @@
+// Links that join base and platform, for each kind of leg.
+
 #include <algorithm>
 #include <cmath>
 
 #include "base/angles.h"
+#include "model/legs/leg_type.h"
 #include "studies/random/random_parts.h"
 
 namespace ursula {
@@ -100,6 +103,137 @@ void drawBodies(Dice& dice, const Recipe& recipe, const Vector3d& middle, Manipu
         platform.mass / static_cast<double>(machine.legs.size()) + leg.proximal.mass + leg.distal.mass;
     drawFriction(dice, recipe, carried * recipe.acceleration * recipe.length, leg);
   }
+}
+
+namespace {
+
+LegSpan spanOf(const LegPlace& place) {
+  const Vector3d AB = place.B - place.A;
+  const double along = AB.dot(place.axis.normalized());
+  return {AB.norm(), along, std::sqrt(std::max(0.0, AB.squaredNorm() - along * along))};
+}
+
+void give(const LinkLengths& links, LegPlace& place) {
+  place.l = links.l;
+  place.s = links.s;
+}
+
+/// Makes a leg nearly stretched, folded or perpendicular to its rail; UPS has no such pose.
+void closeNearly(Dice& dice, LegKind kind, LegPlace& place) {
+  const double bent = dice.uniform(3, 12) * degree;
+  const LegType& type = typeOf(kind);
+  if (!type.folds()) {
+    if (const auto links = type.lengthsAtDeadCentre(spanOf(place), bent)) give(*links, place);
+    return;
+  }
+  // A folded leg needs links of different lengths, otherwise B would be at A.
+  const bool folded = dice.chance(0.3);
+  const double gamma = folded ? bent : pi - bent, ratio = folded ? dice.uniform(2, 3) : dice.spread(0.6, 1.6);
+  give(type.lengths(spanOf(place), gamma, ratio), place);
+}
+
+/// Changes one or two legs of those kinds, from a random one on.
+template <class F>
+void someOf(Dice& dice, const Recipe& recipe, bool (LegKindRow::*is)() const, Layout& layout, const F& change) {
+  const int count = static_cast<int>(layout.size());
+  const int first = dice.whole(0, count - 1);
+  int left = dice.whole(1, 2);
+  for (int k = 0; k < count && left > 0; ++k) {
+    const auto i = static_cast<std::size_t>((first + k) % count);
+    if (!(rowOf(recipe.legs[i].kind).*is)()) continue;
+    change(layout[i]);
+    --left;
+  }
+}
+
+void nearStrokeEnd(Dice& dice, LegPlace& place) {
+  const double beside = dice.spread(0.003, 0.05);
+  const double share = dice.chance(0.5) ? beside : 1 - beside;
+  give(lengthsAtStroke(spanOf(place).distance, share, place.l / place.s), place);
+}
+
+}  // namespace
+
+void drawLinks(Dice& dice, const Recipe& recipe, Layout& layout) {
+  const double unequal = recipe.unequal_links ? 5 : 1.5;
+  const int count = static_cast<int>(layout.size());
+  for (std::size_t i = 0; i < layout.size(); ++i) {
+    const double gamma = dice.uniform(20, 160) * degree;
+    give(typeOf(recipe.legs[i].kind).lengths(spanOf(layout[i]), gamma, dice.spread(1 / unequal, unequal)), layout[i]);
+  }
+  if (recipe.stroke_end)
+    someOf(dice, recipe, &LegKindRow::isTelescopic, layout, [&](LegPlace& place) { nearStrokeEnd(dice, place); });
+  if (recipe.far_zero)
+    someOf(dice, recipe, &LegKindRow::hasCarriage, layout,
+           [&](LegPlace& place) { place.A += dice.spreadOfEitherSign(1, 30) * place.axis.normalized(); });
+  if (!recipe.near_singular || dice.chance(0.4)) return;
+  const int first = dice.whole(0, count - 1), some = dice.whole(1, 2);
+  for (int k = 0; k < some; ++k) {
+    const auto i = static_cast<std::size_t>((first + k) % count);
+    closeNearly(dice, recipe.legs[i].kind, layout[i]);
+  }
+}
+
+namespace {
+
+double totalMass(const ManipulatorParameters& machine) {
+  double mass = machine.platform.mass;
+  for (const Leg& leg : machine.legs) mass += leg.proximal.mass + leg.distal.mass;
+  return mass;
+}
+
+Wrench<double> randomWrench(Dice& dice, double force, double length) {
+  Wrench<double> wrench;
+  wrench.force = dice.vector(force);
+  wrench.moment = dice.vector(force * length);
+  return wrench;
+}
+
+/// Rows that may start before the motion and end after it.
+std::vector<TimedWrench> smoothRows(Dice& dice, const Recipe& recipe, double force) {
+  const int count = dice.whole(2, 7);
+  std::vector<TimedWrench> rows;
+  double time = dice.uniform(-0.2, 0.2) * recipe.duration;
+  for (int k = 0; k < count; ++k) {
+    rows.push_back({time, randomWrench(dice, force, recipe.length)});
+    time += dice.spread(0.1, 0.8) * recipe.duration;
+  }
+  return rows;
+}
+
+/// Steps, each between two rows some thousandths of the machine's time apart: a millisecond for a machine of a metre.
+std::vector<TimedWrench> jumpingRows(Dice& dice, const Recipe& recipe, double force) {
+  const int count = dice.whole(1, 3);
+  std::vector<TimedWrench> rows;
+  Wrench<double> wrench = randomWrench(dice, force, recipe.length);
+  for (int k = 0; k < count; ++k) {
+    const double time = (k + dice.uniform(0.1, 0.9)) / count * recipe.duration;
+    const double gap = std::min(dice.spread(1e-3, 1e-2) * recipe.time(), 0.05 * recipe.duration / count);
+    rows.push_back({time, wrench});
+    wrench = randomWrench(dice, force, recipe.length);
+    rows.push_back({time + gap, wrench});
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::shared_ptr<const Load> randomLoad(Dice& dice, const Recipe& recipe, const Design& design) {
+  if (recipe.load == LoadKind::none) return nullptr;
+  auto load = std::make_shared<Load>();
+  const double force = dice.spread(0.01, 2) * totalMass(design.machine) * recipe.acceleration;
+  const double arm = recipe.load_far ? dice.spread(1, 10) : dice.uniform(0, 0.7);
+  load->point = design.middle + arm * recipe.length * dice.direction();
+  load->frame = dice.chance(0.5) ? Load::Frame::base : Load::Frame::platform;
+  if (recipe.load == LoadKind::constant) {
+    const Wrench<double> wrench = randomWrench(dice, force, recipe.length);
+    load->force = wrench.force;
+    load->moment = wrench.moment;
+  } else {
+    load->history = std::make_shared<LoadHistory>(recipe.load == LoadKind::jumps ? jumpingRows(dice, recipe, force)
+                                                                                 : smoothRows(dice, recipe, force));
+  }
+  return load;
 }
 
 }  // namespace ursula

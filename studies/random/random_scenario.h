@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "model/scenario.h"
-#include "studies/random/random_kind.h"
+#include "studies/random/random_recipe.h"
 
 namespace ursula {
 

@@ -7,6 +7,7 @@
 #include "base/deadline.h"
 #include "model/scenario.h"
 #include "validation/subject/torque_file.h"
+#include "validation/verdict/result.h"
 
 namespace ursula {
 
@@ -36,5 +37,9 @@ Simulation simulate(const Scenario& scenario, SimulationEngine engine, const Eff
 /// tolerance. A quintic spline interpolates them; throws CsvError if there are too few.
 Simulation simulate(const Scenario& scenario, SimulationEngine engine, const TorqueFile& torques,
                     const Deadline& deadline = {});
+
+/// Returns the points for a drawing of the machine at `count` equally spaced instants: `t_s`, `p_{x,y,z}_m` and, for
+/// each leg, `A_{1..6}_{x,y,z}_m` at the base, `R_…` at the knee and `B_…` at the platform, in B. Throws PoseError.
+TimeSeries poseSeries(const Scenario& scenario, int count);
 
 }  // namespace ursula

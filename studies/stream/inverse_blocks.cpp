@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "model/instants.h"
+#include "nocsolver/errors.h"
 #include "nocsolver/fast/batch_dynamics.h"
-#include "nocsolver/finite.h"
 #include "nocsolver/solver.h"
 #include "validation/findings/findings.h"
 #include "validation/subject/subject.h"

@@ -1,13 +1,113 @@
 #include "studies/sweep/run.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
 #include <memory>
+#include <new>
+#include <stdexcept>
 
-#include "studies/sweep/work.h"
+#include "base/errors.h"
+#include "nocsolver/errors.h"
+#include "studies/sweep/motion_extremes.h"
 #include "studies/sweep/worker_pool.h"
+#include "validation/checks/judges.h"
+#include "validation/validate.h"
+#include "validation/validate_pointwise.h"
 
 namespace ursula {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+const char* verdictOf(const PoseError& refusal) {
+  return dynamic_cast<const SingularJacobian*>(&refusal) != nullptr ||
+                 dynamic_cast<const StretchedLeg*>(&refusal) != nullptr
+             ? "singular"
+             : "out_of_reach";
+}
+
+/// The name of the margin from margins(); "" for legs without one, which cannot be stretched.
+std::string marginName(const Manipulator& manipulator) {
+  const LegKind first = manipulator.leg(0).kind;
+  for (int i = 1; i < manipulator.legCount(); ++i)
+    if (manipulator.leg(i).kind != first) return "leg_margin";
+  const char* knee = rowOf(first).knee;
+  std::string name = knee == nullptr ? "" : knee;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
+void refused(const char* verdict, int leg, double t, SweepPoint& point) {
+  point.verdict = verdict;
+  point.values.clear();
+  if (leg >= 0) point.values.push_back({"refused_leg", leg + 1.0, none, ""});
+  point.values.push_back({"refused_t_s", t, none, ""});
+}
+
+void failed(const char* why, SweepPoint& point) {
+  point.verdict = "error";
+  point.error = why;
+  point.values.clear();
+}
+
+void addCheck(const Check& check, SweepPoint& point) {
+  if (check.verdict == Verdict::not_applicable) return;
+  const auto known = [](double x) { return std::isfinite(x) ? x : none; };
+  point.values.push_back({check.name, known(check.value), known(check.limit), name(check.verdict)});
+}
+
+}  // namespace
+
+SweepPoint SweepWorker::at(std::int64_t i) {
+  SweepPoint point;
+  point.id = i;
+  point.parameters = plan_.parameters(i);
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    plan_.file().work == SweepWork::inverse ? inverse(i, point) : validate(i, point);
+  } catch (const PoseError& refusal) {
+    refused(verdictOf(refusal), refusal.leg(), refusal.instant(), point);
+  } catch (const std::bad_alloc&) {
+    failed(out_of_memory_for_scenario, point);
+  } catch (const std::exception& error) {
+    failed(error.what(), point);
+  }
+  point.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return point;
+}
+
+void SweepWorker::inverse(std::int64_t i, SweepPoint& point) {
+  const Scenario scenario = plan_.make(i);
+  const Extremes found = extremes_.of(scenario, plan_.variesMotion());
+  const Motors& motors = scenario.manipulator->motors();
+  for (int k = 0; k < motor_count; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const char* unit = motors[at].effortUnit();
+    point.values.push_back({fmt::format("tau_{}_{}", k + 1, unit), found.efforts[at].value, none, ""});
+    point.values.push_back({fmt::format("tau_{}_t_s", k + 1), found.efforts[at].t, none, ""});
+  }
+  point.values.push_back({"kappa_B", found.kappa, none, ""});
+  if (const std::string margin = marginName(*scenario.manipulator); !margin.empty())
+    point.values.push_back({margin, found.sine, none, ""});
+  point.verdict = "pass";
+}
+
+void SweepWorker::validate(std::int64_t i, SweepPoint& point) {
+  const ValidationResult result = plan_.file().pointwise ? pointwise(i) : ursula::validate(plan_.read(i));
+  for (const Check& check : result.checks) addCheck(check, point);
+  point.verdict = name(result.verdict);
+}
+
+/// Judges the commanded motion only once if all points share it.
+ValidationResult SweepWorker::pointwise(std::int64_t i) {
+  if (plan_.variesMotion()) return validatePointwise(plan_.read(i));
+  if (!of_motion_) of_motion_ = judgeCommandedMotion(plan_.base());
+  return validatePointwise(plan_.make(i), &*of_motion_);
+}
+
 namespace {
 
 /// Returns missing points in order, a handful at a time.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -36,5 +37,52 @@ std::string arrayNumbers(const std::vector<int>& ascending);
 std::string arrayScript(const SlurmJob& job);
 /// Merges all existing shards.
 std::string mergeScript(const SlurmJob& job);
+
+/// The jobs of a sweep, as stored next to its database.
+struct SlurmJobs {
+  int shards = 0;  ///< number of the sweep's shards; 0 without a job
+  std::vector<std::int64_t> arrays, merges;
+};
+
+/// Reads `FOLDER/jobs.json`; no jobs if it is missing. Throws std::runtime_error for other content.
+SlurmJobs readSlurmJobs(const std::filesystem::path& folder);
+void writeSlurmJobs(const std::filesystem::path& folder, const SlurmJobs& jobs);
+
+/// A running or waiting job, or task of an array.
+struct QueuedTask {
+  std::int64_t job = 0;
+  int index = 0;      ///< 0 if it belongs to no array
+  std::string state;  ///< Slurm's state: "RUNNING", "PENDING"
+};
+
+/// The format that squeue is asked for, and its parser. Throws std::runtime_error for another answer.
+constexpr const char* queue_format = "%F|%K|%T";
+std::vector<QueuedTask> readQueue(const std::string& answer);
+
+enum class ShardState {
+  missing,   ///< does not exist, or lacks points
+  queued,    ///< in Slurm's queue
+  locked,    ///< another process writes to its database
+  complete,  ///< in its own or in the final database
+};
+
+struct ShardStanding {
+  ShardState state = ShardState::missing;
+  std::int64_t done = 0;  ///< number of existing points; not counted for queued shards
+};
+
+/// The progress of a sweep on the cluster.
+struct SlurmStanding {
+  std::vector<ShardStanding> shards;            ///< starting with shard 1
+  std::vector<std::int64_t> arrays, merges;     ///< jobs still in the queue
+  bool merged = false;                          ///< all points are in the final database
+  std::vector<int> in(ShardState state) const;  ///< numbers of these shards, from 1
+};
+
+/// `sweep` is the whole one; `queue` is empty without Slurm. It does not open databases of queued shards, because a
+/// shared file system may allow only one machine at a time. Throws DatabaseError for a database of another sweep, and
+/// for a damaged one.
+SlurmStanding standingOf(const SweepIdentity& sweep, const std::filesystem::path& database, int shards,
+                         const SlurmJobs& jobs, const std::vector<QueuedTask>& queue);
 
 }  // namespace ursula

@@ -1,4 +1,4 @@
-#include "studies/sweep_report/output_plan.h"
+#include "studies/sweep_report/sweep_outputs.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "studies/sweep_report/column_store.h"
-#include "studies/sweep_report/output_plan.h"
 #include "studies/sweep_report/sweep_outputs.h"
 #include "studies/sweep_report/sweep_rows.h"
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/shell_word.h"
+#include "base/text.h"
 #include "model/check_catalogue.h"
 #include "report/quantity.h"
 #include "report/text.h"

@@ -9,8 +9,7 @@
 #include <thread>
 
 #include "base/csv.h"
-#include "base/nearest.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "base/text_source.h"
 #include "base/toml_bounds.h"
 #include "model/scenario.h"

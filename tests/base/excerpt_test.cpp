@@ -1,4 +1,4 @@
-#include "base/excerpt.h"
+#include "base/text_source.h"
 
 #include <gmock/gmock.h>
 

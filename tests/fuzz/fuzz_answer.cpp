@@ -2,9 +2,9 @@
 
 #include <cstdlib>
 
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "tests/fuzz/fuzz.h"
-#include "validation/outside/solver_line.h"
+#include "validation/outside/line_process.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string line = ursula::fuzz::textOf(data, size);

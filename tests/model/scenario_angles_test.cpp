@@ -4,8 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include "model/quaternions.h"
 #include "model/scenario.h"
-#include "model/scenario_orientation.h"
 #include "tests/model/refusals.h"
 #include "tests/model/scenario_text.h"
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "nocsolver/poses/direct_kinematics.h"
-#include "nocsolver/poses/direct_kinematics_planes.h"
+#include "nocsolver/poses/direct_kinematics_parts.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "studies/audit/audit.h"
-#include "studies/prove/prove_page.h"
+#include "studies/prove/prove.h"
 #include "validation/verdict/result.h"
 
 namespace ursula::test {

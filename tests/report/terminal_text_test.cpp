@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "model/check_catalogue.h"
-#include "report/columns.h"
 #include "report/explanation.h"
+#include "report/text.h"
 #include "tests/report/report_samples.h"
 #include "tests/support/numbers.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "studies/sweep_report/column_store.h"
 #include "studies/sweep_report/relations.h"
+#include "studies/sweep_report/sweep_rows.h"
 #include "tests/studies/sweep_databases.h"
 #include "tests/support/numbers.h"
 

@@ -13,7 +13,7 @@
 #include "tests/support/numbers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/checks/acceptance.h"
+#include "validation/checks/tolerance.h"
 
 namespace ursula {
 namespace {

@@ -28,7 +28,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Pair;
 
-using InjectedFault = std::function<void(double t, std::vector<double>& x)>;
+using StateFault = std::function<void(double t, std::vector<double>& x)>;
 using Change = std::function<Vector6d(const Motion<double>& motion, const Vector6d& torques)>;
 
 /// A scenario's reference, made once with few samples for speed.
@@ -44,7 +44,7 @@ const Reference& referenceOf(const std::string& name) {
 }
 
 /// Replays the windows of the right torques under changed torques, with a falsified state if `fault` has one.
-ErrorBudget budgetOf(const std::string& name, const Change& change = nullptr, const InjectedFault& fault = nullptr) {
+ErrorBudget budgetOf(const std::string& name, const Change& change = nullptr, const StateFault& fault = nullptr) {
   const Reference& reference = referenceOf(name);
   const Scenario& scenario = reference.scenario;
   Subject subject = solverOf(scenario);

@@ -10,8 +10,8 @@
 #include "report/report.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/checks/every_check.h"
 #include "validation/checks/families.h"
+#include "validation/checks/judges.h"
 #include "validation/validate_external.h"
 
 namespace ursula {

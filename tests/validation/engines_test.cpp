@@ -17,7 +17,7 @@
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/judges.h"
 #include "validation/findings/findings.h"
-#include "validation/samples/reaction_samples.h"
+#include "validation/samples/simbody_samples.h"
 
 namespace ursula {
 namespace {

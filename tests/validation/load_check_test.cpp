@@ -1,6 +1,6 @@
 // The load over time: LoadHistory keeps its promises, and tables and curves that break them fail.
 
-#include "validation/checks/load_check.h"
+#include "validation/checks/judges.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <locale>
 
-#include "base/leading_number.h"
+#include "base/text.h"
 #include "model/scenario.h"
 #include "nocsolver/errors.h"
 #include "report/report.h"

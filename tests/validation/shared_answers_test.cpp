@@ -17,7 +17,6 @@
 #include "validation/evidence/evidence.h"
 #include "validation/evidence/reference.h"
 #include "validation/replay/asked_torques.h"
-#include "validation/replay/lazy.h"
 
 namespace ursula {
 namespace {

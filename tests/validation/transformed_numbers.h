@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "model/joint_reactions.h"
 #include "model/joint_variables.h"
 #include "model/load.h"
 #include "model/manipulator.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "base/leading_number.h"
+#include "base/text.h"
 
 namespace ursula {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "validation/causes/asked_apart.h"
 #include "validation/causes/explanation.h"
-#include "validation/evidence/external_torques.h"
+#include "validation/evidence/external_evidence.h"
 
 namespace ursula {
 

@@ -4,7 +4,7 @@
 
 #include "model/scenario.h"
 #include "validation/subject/subject.h"
-#include "validation/verdict/likely_cause.h"
+#include "validation/verdict/result.h"
 
 namespace ursula {
 

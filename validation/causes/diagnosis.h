@@ -6,7 +6,7 @@
 
 #include "model/scenario.h"
 #include "validation/causes/asked_apart.h"
-#include "validation/evidence/external_samples.h"
+#include "validation/evidence/external_evidence.h"
 #include "validation/verdict/result.h"
 
 namespace ursula {

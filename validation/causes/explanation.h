@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "validation/causes/hypotheses.h"
-#include "validation/verdict/likely_cause.h"
+#include "validation/verdict/result.h"
 
 namespace ursula {
 

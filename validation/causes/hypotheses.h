@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "model/scenario.h"
-#include "validation/verdict/likely_cause.h"
+#include "validation/verdict/result.h"
 
 namespace ursula {
 

@@ -9,9 +9,8 @@
 
 #include "base/real50.h"
 #include "nocsolver/solver.h"
-#include "validation/checks/load_check.h"
 #include "validation/limits/conditioning.h"
-#include "validation/verdict/nearest_to_limit.h"
+#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {

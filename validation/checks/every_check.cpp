@@ -1,4 +1,4 @@
-#include "validation/checks/every_check.h"
+#include "validation/checks/judges.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "validation/samples/place_name.h"
+#include "validation/samples/pointwise.h"
 #include "validation/verdict/worst_share.h"
 
 namespace ursula {

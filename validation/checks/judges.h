@@ -1,22 +1,24 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "model/exact_trajectory.h"
+#include "model/load.h"
 #include "model/scenario.h"
-#include "validation/evidence/external_torques.h"
+#include "validation/evidence/evidence.h"
+#include "validation/evidence/external_evidence.h"
 #include "validation/limits/rounding_profile.h"
 #include "validation/replay/ladder.h"
 #include "validation/replay/stabilised_replay.h"
 #include "validation/replay/windowed_replay.h"
 #include "validation/samples/complement_samples.h"
-#include "validation/samples/direct_samples.h"
 #include "validation/samples/engines.h"
 #include "validation/samples/fast_samples.h"
 #include "validation/samples/invariance_samples.h"
 #include "validation/samples/pointwise.h"
-#include "validation/samples/reaction_samples.h"
+#include "validation/samples/simbody_samples.h"
 #include "validation/subject/frame_change.h"
 #include "validation/subject/subject.h"
 #include "validation/verdict/result.h"
@@ -106,5 +108,14 @@ Check judgeStabilised(const StabilisedReplay& found, double largest, const Units
 
 /// `torque.against_noc`: external torques against this program's own.
 Check judgeAgainstNoc(const ExternalTorques& torques, const Units& units = {});
+
+/// `motion.load` compares the load that every formulation uses, over time, with its rows or with its force and moment.
+Check judgeLoad(const Load& load, double duration);
+
+/// The part for a table: `at` interpolates the rows by the quintics that LoadHistory promises, and is constant beyond.
+Check judgeLoadTable(const std::vector<TimedWrench>& rows, const std::function<Wrench<double>(double)>& at);
+
+/// Sorts the checks in the order of checkCatalogue() and adds those that do not apply, each with its reason.
+void listEveryCheck(const Scenario& scenario, const SubjectHas& has, ValidationResult& result);
 
 }  // namespace ursula

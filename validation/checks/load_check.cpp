@@ -1,4 +1,4 @@
-#include "validation/checks/load_check.h"
+#include "validation/checks/judges.h"
 
 #include <fmt/format.h>
 
@@ -9,12 +9,12 @@
 #include "base/real50.h"
 #include "validation/checks/quintic_by_control_points.h"
 #include "validation/limits/conditioning.h"
-#include "validation/verdict/nearest_to_limit.h"
+#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
 
-constexpr double eps = Eigen::NumTraits<double>::epsilon();
+constexpr double epsilon = Eigen::NumTraits<double>::epsilon();
 
 Vector6d stacked(const Wrench<double>& wrench) { return (Vector6d() << wrench.force, wrench.moment).finished(); }
 
@@ -35,7 +35,7 @@ struct Segment {
                  v_0 = std::abs(static_cast<double>(h * from.rate)), v_1 = std::abs(static_cast<double>(h * to.rate));
     const double cubic = 10 * size + 6 * v_0 + 4 * v_1, quartic = 15 * size + 8 * v_0 + 7 * v_1,
                  quintic = 6 * size + 3 * (v_0 + v_1);
-    return rounding_depth * eps * (y_0 + s * (v_0 + s * s * (cubic + s * (quartic + s * quintic))));
+    return rounding_depth * epsilon * (y_0 + s * (v_0 + s * s * (cubic + s * (quartic + s * quintic))));
   }
 };
 

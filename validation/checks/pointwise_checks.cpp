@@ -1,19 +1,18 @@
-#include "validation/checks/judges.h"
-
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <string>
 
+#include "validation/checks/judges.h"
 #include "validation/limits/conditioning.h"
-#include "validation/samples/place_name.h"
+#include "validation/limits/engine_view.h"
+#include "validation/samples/pointwise.h"
 #include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
-
-constexpr double eps = Eigen::NumTraits<double>::epsilon();
 
 enum class Level { measured, derived };
 
@@ -67,8 +66,9 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quanti
   const CheckedQuantity of{quantity.name, quantity.unit, largestSize(samples, quantity), given};
   const JudgedValue shown = worst.shown(of.useful());
   const Conditioning& c = sampleAt(samples, shown.t).conditioning;
-  const std::string basis = fmt::format("{}; there kappa(B) = {:.3g}, kappa(legs) = {:.3g}, eps = {:.3g}",
-                                        basisOf(quantity, level), c.kappa_B, c.kappa_legs, eps);
+  const std::string basis =
+      fmt::format("{}; there kappa(B) = {:.3g}, kappa(legs) = {:.3g}, eps = {:.3g}", basisOf(quantity, level),
+                  c.kappa_B, c.kappa_legs, Eigen::NumTraits<double>::epsilon());
   const std::string why = fmt::format("{}, at {} instants; shown for t = {:.6g} s, {}", quantity.what, samples.size(),
                                       shown.t * units.time, nameOf(shown.where));
   Check check = judgedIfUseful(of, worst, basis, why, causeOfRounding(samples, worst.widest_t));
@@ -144,6 +144,76 @@ std::vector<Check> judgePointwise(const std::vector<PointwiseSample>& samples, b
     for (const Quantity& quantity : kinematicQuantities()) checks.push_back(judgeQuantity(samples, quantity, units));
   for (const Quantity& quantity : dynamicQuantities()) checks.push_back(judgeQuantity(samples, quantity, units));
   return checks;
+}
+
+std::vector<Check> judgeComplement(const std::vector<ComplementSample>& samples, const Units& units) {
+  static constexpr const char *orthogonality = "complement.orthogonality", *rank = "complement.rank";
+  if (samples.empty())
+    return {notMade(orthogonality, "", "no instant was compared"), notMade(rank, "", "no instant was compared")};
+  WorstShare worst;
+  int missing = 0;
+  double at = samples.front().t;
+  const ComplementSample* shown = &samples.front();
+  for (const ComplementSample& sample : samples) {
+    const bool empty = !(sample.size_D > 0) || !(sample.size_T > 0);  // zeros are orthogonal to everything
+    const double product = empty ? std::nan("") : sample.product / (sample.size_D * sample.size_T);
+    worst.add(product, sample.limit / (sample.size_D * sample.size_T), sample.t, -1);
+    const int here = std::abs(sample.rank_D - sample.wanted_D) + std::abs(sample.rank_T - sample.wanted_T);
+    if (here <= missing) continue;
+    missing = here;
+    at = sample.t;
+    shown = &sample;
+  }
+  const CheckedQuantity quantity{orthogonality, "", 1};
+  Check product =
+      judgedIfUseful(quantity, worst, "eps x kappa(B) kappa(legs) x what roundings add up to at most, of ||D|| ||T||",
+                     fmt::format("|| D T || over || D || || T || (33), at {} instants; shown for t = {:.6g} s",
+                                 samples.size(), worst.shown(quantity.useful()).t * units.time),
+                     "a singular pose or a stretched leg is near");
+  product.largest = {worst.largest, worst.largest_t * units.time, ""};
+  Check ranks = judged(rank, missing, 0, "", "D leaves six freedoms, T spans them",
+                       fmt::format("D has rank {} of {}, T has rank {} of {}, at t = {:.6g} s", shown->rank_D,
+                                   shown->wanted_D, shown->rank_T, shown->wanted_T, at * units.time));
+  ranks.largest = {static_cast<double>(missing), at * units.time, ""};
+  return {product, ranks};
+}
+
+namespace {
+
+double largest(const LegReactions& a, double length) { return distance(a, LegReactions{}, length); }
+
+}  // namespace
+
+Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::vector<PointwiseSample>& samples,
+                     const RoundingProfile& profile, const Units& units) {
+  RemeasuredLimits look(profile);
+  double size = 0;
+  WorstShare worst;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const PointwiseSample& sample = samples[k];
+    const Conditioning& at = sample.conditioning;
+    for (std::size_t leg = 0; leg < leg_count; ++leg) {
+      const LegReactions& recovered = reactions.at(k).recovered[leg];
+      size = std::max(size, largest(recovered, at.length));
+      const double error = reactions[k].errors[leg];
+      worst.add(error, look.limit(error, at, Rounded::reactions, sample.motion), sample.motion.t,
+                static_cast<int>(leg));
+    }
+  }
+  if (!worst.any) return notMade("reactions.pointwise", "N", "no instant was compared");
+  const CheckedQuantity quantity{"reactions.pointwise", "N", size};
+  const JudgedValue shown = worst.shown(quantity.useful());
+  Check check = judgedIfUseful(
+      quantity, worst,
+      fmt::format("eps (kappa(B)^2 kappa(legs) x || |T|' |w| || / length + largest mass x the acceleration's) x "
+                  "{:g} x the spread measured in turned and rescaled frames",
+                  rounding_safety),
+      fmt::format("forces, and moments over the machine's length, at all joints against Simbody's mobilizer and "
+                  "constraint reactions, at {} instants; shown for t = {:.6g} s, leg {}; the largest is {:.6g} N",
+                  samples.size(), shown.t * units.time, shown.where + 1, size * units.force()),
+      causeOfRounding(samples, worst.widest_t));
+  check.largest = {worst.largest, worst.largest_t * units.time, placeName(worst.largest_where, false)};
+  return check;
 }
 
 }  // namespace ursula

@@ -1,11 +1,12 @@
-#include "validation/checks/judges.h"
-
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "validation/checks/judges.h"
+#include "validation/limits/conditioning.h"
+#include "validation/replay/observed_order.h"
+#include "validation/replay/replay.h"
 #include "validation/verdict/worst_share.h"
 
 namespace ursula {
@@ -146,6 +147,62 @@ std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, doubl
   checks.reserve(measures.size());
   for (const Measure& measure : measures) checks.push_back(judgeMeasure(windows, measure, units, cause));
   return checks;
+}
+
+Check judgeOrder(const std::vector<double>& orders) {
+  static constexpr const char* check = "integration.order";
+  const std::string basis = fmt::format(
+      "as far as steps that have not vanished leave it open; it fails where the shortest {} stretches agree to {:g}",
+      settled_over, settled);
+  if (orders.empty())
+    return notJudgeable(Reason::limit_useless, check, std::nan(""), largest_shortfall, "", basis,
+                        "no stretch of the motion is between rounding and steps too long to show an order");
+  const double order = bestOrder(orders), shortfall = std::max(0.0, nominal_order - order);
+  const std::string why = fmt::format(
+      "observed order {:.3g}, of {:g}, by halving fixed steps twice: the best over the shorter half of {} stretches, "
+      "without friction and load",
+      order, nominal_order, orders.size());
+  if (shortfall > largest_shortfall && !haveSettled(orders))
+    return notJudgeable(Reason::limit_useless, check, shortfall, largest_shortfall, "", basis,
+                        why + "; the orders have not settled: rounding is met before the steps are short enough");
+  return judged(check, shortfall, largest_shortfall, "", basis, why);
+}
+
+namespace {
+
+/// Above this share of the largest torque, a limit proves nothing if the replay gave up. Rounding alone may then
+/// destabilise the machine.
+constexpr double telling_limit = 1e-4;
+
+}  // namespace
+
+Check judgeStabilised(const StabilisedReplay& found, double largest, const Units& units) {
+  static constexpr const char* check = "feedback.torque";
+  const std::string stopped =
+      found.stopped.empty() ? "" : fmt::format("; {} at t = {:.6g} s", found.stopped, found.stopped_at * units.time);
+  const std::string cause = found.noisiest ? causeOfRounding(*found.noisiest) : "";
+  if (found.gave_up && found.torque <= found.limit) {
+    const std::string why = "the stabilised replay gave up" + stopped;
+    if (found.limit <= telling_limit * largest) return notMade(check, units.efforts.unit, why);
+    return notJudgeable(Reason::limit_useless, check, found.torque, found.limit, units.efforts.unit, "",
+                        fmt::format("{}; the limit exceeds {:g} of the largest torque: {}", why, telling_limit, cause));
+  }
+  const std::string basis = fmt::format(
+      "{:.3g} {}, twice the torque's largest rounding and the loops' as torque, answered with {:.3g} of it, and half "
+      "of it again from a step",
+      found.rounding * units.effort(), units.efforts.unit, found.answer);
+  const std::string why = fmt::format(
+      "torque that a weak stabilising term added over the whole motion, {:.3g} of the largest torque; shown for "
+      "t = {:.6g} s of {} steps, {} derivative evaluations{}",
+      largest > 0 ? found.torque / largest : found.torque, found.t * units.time, found.steps, found.evaluations,
+      stopped);
+  WorstShare worst;
+  worst.add(found.torque, found.limit, found.t);
+  Check out = judgedIfUseful({check, units.efforts.unit, largest}, worst, basis, why, cause);
+  if (found.torque <= found.limit && found.too_long)
+    out = notJudgeable(Reason::unfinished, check, found.torque, found.limit, units.efforts.unit, basis, why);
+  out.largest = {found.torque, found.t * units.time, ""};
+  return out;
 }
 
 }  // namespace ursula

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "nocsolver/errors.h"
-#include "validation/samples/place_name.h"
+#include "validation/samples/pointwise.h"
 #include "validation/verdict/worst_share.h"
 
 namespace ursula {

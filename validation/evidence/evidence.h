@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/scenario.h"
-#include "validation/evidence/external_torques.h"
+#include "validation/evidence/external_evidence.h"
 #include "validation/evidence/injected_fault.h"
 #include "validation/evidence/reference.h"
 #include "validation/replay/ladder.h"
@@ -18,7 +18,7 @@
 #include "validation/samples/fast_samples.h"
 #include "validation/samples/invariance_samples.h"
 #include "validation/samples/pointwise.h"
-#include "validation/samples/reaction_samples.h"
+#include "validation/samples/simbody_samples.h"
 #include "validation/subject/frame_change.h"
 #include "validation/subject/subject.h"
 
@@ -88,5 +88,18 @@ std::function<void(ReplaySettings&)> rungSettings(const Evidence& evidence);
 
 /// Takes a second look at the judged replay of `window`: it measures the actual errors of steps and rounding.
 void refineWindow(Evidence& evidence, std::size_t window);
+
+/// Relative work of a validation's parts, in evaluations of the closed loop's derivatives.
+struct WorkParts {
+  double reference = 0, samples = 0, replays = 0, checks = 0, sources = 0;  ///< in their order
+  double total() const { return reference + samples + replays + checks + sources; }
+};
+
+/// By numbers of steps and samples, as measured on the shipped scenarios with up to 100,000 samples.
+WorkParts workParts(const Scenario& scenario);
+
+/// Estimates the time of validate() on this machine, s, from a few evaluations and their expected number. It is within
+/// a factor of three for the shipped scenarios.
+double workSeconds(const Scenario& scenario);
 
 }  // namespace ursula

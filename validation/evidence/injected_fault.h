@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "engines/further_engines.h"
-#include "model/joint_reactions.h"
+#include "model/joint_variables.h"
 #include "model/scenario.h"
 #include "validation/replay/replay.h"
 #include "validation/samples/fast_samples.h"

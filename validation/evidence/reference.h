@@ -10,14 +10,13 @@
 #include "validation/evidence/background_tasks.h"
 #include "validation/limits/amplification.h"
 #include "validation/limits/rounding_profile.h"
+#include "validation/replay/asked_torques.h"
 #include "validation/replay/ladder.h"
-#include "validation/replay/lazy.h"
 #include "validation/replay/stabilised_replay.h"
 #include "validation/replay/windows.h"
-#include "validation/samples/direct_samples.h"
 #include "validation/samples/engines.h"
 #include "validation/samples/pointwise.h"
-#include "validation/samples/reaction_samples.h"
+#include "validation/samples/simbody_samples.h"
 #include "validation/subject/frame_change.h"
 
 namespace ursula {

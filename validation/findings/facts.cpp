@@ -1,11 +1,14 @@
-#include "validation/findings/findings.h"
-
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <optional>
 
+#include "base/provenance.h"
+#include "base/sha1.h"
+#include "engines/mujoco/mujoco_loop.h"
+#include "nocsolver/fast/instruction_set.h"
+#include "validation/findings/findings.h"
+#include "validation/replay/replay.h"
 #include "validation/verdict/worst_share.h"
 
 namespace ursula {
@@ -84,6 +87,78 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
   result.findings.push_back(nearestToSingular(samples, units));
   if (const auto edge = nearestToEdge(samples, units)) result.findings.push_back(*edge);
   if (!windows.empty()) addReplayed(windows, units, result);
+}
+
+namespace {
+
+/// "p_x_m" → "m", "tau_1_Nm" → "Nm", "q_w" → "".
+std::string unitOf(const std::string& column) {
+  for (const char* unit : {"rad_s2", "rad_s", "rad", "m_s2", "m_s", "Nm", "N", "J", "m", "s"}) {
+    const std::string ending = std::string("_") + unit;
+    if (column.size() > ending.size() && column.compare(column.size() - ending.size(), ending.size(), ending) == 0)
+      return unit;
+  }
+  const std::size_t open = column.rfind('(');
+  return open == std::string::npos || column.back() != ')' ? "" : column.substr(open + 1, column.size() - open - 2);
+}
+
+void restoreColumns(const FrameChange& from, TimeSeries& series) {
+  for (std::size_t k = 0; k < series.names.size(); ++k) {
+    const std::string& column = series.names[k];
+    const double unit = from.units.of(unitOf(column));
+    double offset = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const char* prefix : {"p_", "sim_p_"})
+        if (column == fmt::format("{}{}_m", prefix, "xyz"[axis])) offset = from.origin(axis);
+    for (double& value : series.columns[k]) value = value * unit + offset;
+  }
+}
+
+}  // namespace
+
+void seriesInSi(const FrameChange& from, ValidationResult& result) {
+  restoreColumns(from, result.timeseries);
+  for (auto& [title, curve] : result.curves) restoreColumns(from, curve);
+  for (Event& event : result.events) event.t *= from.units.time;
+}
+
+namespace {
+
+const char* formulationInWords(const std::string& formulation) {
+  if (formulation == "noc") return "noc: T formed, efforts by (37), accelerations by (36)";
+  return formulation == "fast" ? "fast: the kernels that users call" : "external: a solver or file of the user";
+}
+
+}  // namespace
+
+void addProvenance(const Scenario& scenario, const std::string& subject, ValidationResult& result) {
+  const BuildProvenance& build = buildProvenance();
+  result.provenance = {{"scenario file", scenario.file.filename().string()},
+                       {"scenario sha1", sha1(scenario.text)},
+                       {"subject", subject},
+                       {"formulation", formulationInWords(result.formulation)},
+                       {"ursula", build.version},
+                       {"commit", build.commit},
+                       {"compiler", build.compiler},
+                       {"flags", build.flags},
+                       {"build type", build.build_type},
+                       {"Eigen", build.eigen},
+                       {"Boost", build.boost},
+                       {"Simbody", build.simbody},
+                       {"MuJoCo", mujocoVersion()},
+                       {"instruction set", nameOf(bestInstructionSet())},
+                       {"trajectory", scenario.trajectory->kind()},
+                       {"duration", fmt::format("{} s", scenario.trajectory->duration())},
+                       {"samples", fmt::format("{}", scenario.simulation.samples)},
+                       {"integrator", name(scenario.simulation.integrator)},
+                       {"tolerance", fmt::format("{:g}", scenario.simulation.tolerance)}};
+  if (!scenario.tolerance) return;
+  const auto add = [&result](const char* key, double value) {
+    if (value > 0) result.provenance.emplace_back(key, fmt::format("{}", value));
+  };
+  add("relative tolerance of efforts", scenario.tolerance->relative);
+  add("absolute tolerance of efforts", scenario.tolerance->absolute);
+  if (scenario.tolerance->any) result.provenance.emplace_back("any tolerance", "yes");
 }
 
 }  // namespace ursula

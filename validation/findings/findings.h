@@ -7,7 +7,7 @@
 #include "validation/replay/ladder.h"
 #include "validation/replay/windowed_replay.h"
 #include "validation/samples/pointwise.h"
-#include "validation/samples/reaction_samples.h"
+#include "validation/samples/simbody_samples.h"
 #include "validation/subject/frame_change.h"
 #include "validation/verdict/result.h"
 

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "engines/further_engines.h"
-#include "model/joint_reactions.h"
 #include "model/joint_variables.h"
 #include "model/scenario.h"
 #include "validation/subject/frame_change.h"

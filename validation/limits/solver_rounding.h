@@ -3,7 +3,6 @@
 #include <memory>
 #include <vector>
 
-#include "model/joint_reactions.h"
 #include "model/joint_variables.h"
 #include "model/load.h"
 #include "model/manipulator.h"

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "base/deadline.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "validation/outside/line_process.h"
-#include "validation/outside/solver_line.h"
 
 namespace ursula {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "model/scenario.h"
+#include "validation/outside/line_process.h"
 #include "validation/outside/outside_solver.h"
-#include "validation/outside/solver_line.h"
 
 namespace ursula {
 

@@ -4,7 +4,6 @@
 #include <memory>
 #include <string>
 
-#include "model/joint_reactions.h"
 #include "model/joint_variables.h"
 #include "model/load.h"
 #include "model/manipulator.h"

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "model/joint_reactions.h"
 #include "model/joint_variables.h"
 #include "model/load.h"
 #include "model/manipulator.h"

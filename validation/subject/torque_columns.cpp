@@ -8,8 +8,7 @@
 #include <map>
 #include <optional>
 
-#include "base/nearest.h"
-#include "base/shown_text.h"
+#include "base/text.h"
 #include "validation/subject/torque_names.h"
 
 namespace ursula {

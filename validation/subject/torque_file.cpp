@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "base/csv.h"
-#include "base/shell_word.h"
+#include "base/text.h"
 #include "validation/subject/effort_columns.h"
 
 namespace ursula {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "base/quintic_hermite.h"
+#include "base/quintic_spline.h"
 #include "base/scalar.h"
 
 namespace ursula {

@@ -1,15 +1,23 @@
 #include "validation/verdict/result.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <stdexcept>
 
 #include "validation/verdict/worst_share.h"
 
 namespace ursula {
+
+const char* name(CauseKind kind) {
+  static constexpr const char* names[] = {"scale",        "sign",   "order",    "units",     "offset",
+                                          "delay",        "digits", "state",    "parameter", "reference_point",
+                                          "missing_term", "frame",  "jacobian", "closure",   "window"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
 namespace {
 
 bool anyIs(const std::vector<Check>& checks, Verdict verdict) {

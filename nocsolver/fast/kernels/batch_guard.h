@@ -1,6 +1,7 @@
 #pragma once
 
-// The requirements on a leg's displacement, in every lane of a pack. Internal; leg_guard.h handles one pose at a time.
+// The requirements on a leg's displacement, in every lane of a pack. Internal; leg_kernels.h handles one pose at a
+// time.
 
 #include "nocsolver/fast/kernels/pack.h"
 #include "nocsolver/fast/pose_fault.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+// The requirements on a leg's displacement. Internal. Here a pose is refused by an error; in a batch its lane is
+// flagged (batch_guard.h).
 // The fast kernels of all kinds of legs, each in its file, and their common parts. Internal. A kind has
 //   rowOfMap    the non-zero components of the rows of its map
 //   place       displacement and map, from AB
@@ -13,8 +15,31 @@
 #include "nocsolver/fast/kernels/rus_kernel.h"
 #include "nocsolver/fast/kernels/ups_kernel.h"
 #include "nocsolver/fast/kernels/urs_kernel.h"
+#include "nocsolver/legs/requirements.h"
 
 namespace ursula::kernel {
+
+template <class S>
+struct LegGuard {
+  int leg;
+  S t;
+
+  /// `inside` must not be negative; `square` is the square of the distance that the message compares with `bound`.
+  void reach(const S& inside, const S& square, const S& bound) const {
+    using std::abs;
+    using std::sqrt;
+    if (!(inside >= S(0))) legs::requireReach(false, leg, t, S(sqrt(square)), S(abs(bound)));
+  }
+  void stroke(const S& d, const S& least, const S& most) const {
+    legs::requireStroke(d > least, leg, t, d, least);
+    legs::requireStroke(d < most, leg, t, d, most);
+  }
+  void offAxis(const S& r, const S& size) const { legs::requireOffAxis(r, size, leg, t); }
+  void regular(const S& sine, const char* what) const {
+    using std::abs;
+    legs::requireRegular(S(abs(sine)), what, leg, t);
+  }
+};
 
 /// (a) of off_line.h.
 template <class Kind, class S>

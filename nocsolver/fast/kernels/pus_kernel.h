@@ -17,7 +17,7 @@ using Pus = std::integral_constant<LegKind, LegKind::PUS>;
 /// The non-zero components of a row of the map: 1 for x, 2 for u, 4 for z.
 constexpr std::array<int, 3> rowOfMap(Pus) { return {6, 1, 4}; }
 
-/// `k` is AB along F̂; `guard` checks the requirements (leg_guard.h).
+/// `k` is AB along F̂; `guard` checks the requirements (leg_kernels.h).
 template <class S, class Guard>
 void place(Pus, const PlaneModel<S>& leg, const Vector3<S>& k, Guard& guard, PlaneLeg<S>& out) {
   using std::abs;

@@ -17,7 +17,7 @@ using Ups = std::integral_constant<LegKind, LegKind::UPS>;
 /// The non-zero components of a row of the map: 1 for x, 2 for u, 4 for z.
 constexpr std::array<int, 3> rowOfMap(Ups) { return {1, 6, 6}; }
 
-/// `k` is AB along F̂; `guard` checks the requirements (leg_guard.h).
+/// `k` is AB along F̂; `guard` checks the requirements (leg_kernels.h).
 template <class S, class Guard>
 void place(Ups, const PlaneModel<S>& leg, const Vector3<S>& k, Guard& guard, PlaneLeg<S>& out) {
   using std::sqrt;

@@ -18,7 +18,7 @@ using Urs = std::integral_constant<LegKind, LegKind::URS>;
 /// The non-zero components of a row of the map: 1 for x, 2 for u, 4 for z.
 constexpr std::array<int, 3> rowOfMap(Urs) { return {1, 6, 6}; }
 
-/// `k` is AB along F̂; `guard` checks the requirements (leg_guard.h).
+/// `k` is AB along F̂; `guard` checks the requirements (leg_kernels.h).
 template <class S, class Guard>
 void place(Urs, const PlaneModel<S>& leg, const Vector3<S>& k, Guard& guard, PlaneLeg<S>& out) {
   using std::abs;

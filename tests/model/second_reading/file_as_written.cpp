@@ -5,8 +5,8 @@
 #include <map>
 #include <sstream>
 
-#include "base/leading_number.h"
 #include "base/real50.h"
+#include "base/text.h"
 #include "tests/model/second_reading/written_numbers.h"
 
 namespace ursula {

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "studies/sweep/merge.h"
-#include "studies/sweep/slurm_standing.h"
 #include "tests/base/temporary_folder.h"
 
 namespace ursula {

@@ -9,7 +9,7 @@
 #include "model/instants.h"
 #include "nocsolver/solver.h"
 #include "studies/sweep/merge.h"
-#include "studies/sweep/work.h"
+#include "studies/sweep/run.h"
 #include "tests/studies/sweep/sweeps.h"
 #include "validation/validate.h"
 

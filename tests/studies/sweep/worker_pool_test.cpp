@@ -7,7 +7,6 @@
 #include <csignal>
 #include <map>
 
-#include "studies/sweep/wire.h"
 #include "studies/sweep/worker_pool.h"
 #include "tests/base/temporary_folder.h"
 

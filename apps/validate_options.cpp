@@ -1,0 +1,99 @@
+#include "apps/validate_options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "apps/output.h"
+#include "apps/verbs.h"
+#include "base/text.h"
+#include "report/terminal.h"
+#include "report/written_files.h"
+#include "validation/subject/effort_columns.h"
+
+namespace ursula {
+
+void addMapOption(CLI::App& verb, std::vector<std::string>& map) {
+  verb.add_option(
+          "--map", map,
+          "The name that the torque file gives to a column, such as tau_1_Nm=tau1 or t_ms=Time; may be repeated")
+      ->type_name("NAME=COLUMN")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+}
+
+TorqueFile readTorquesAloud(const std::string& file, const std::vector<std::string>& map, const Motors& motors) {
+  const TorqueFile torques = readTorqueFile(file, parseColumnMap(map, motors), motors);
+  if (!torques.read_as.empty()) say("{}: read as: {}\n", shownPath(file), torques.read_as);
+  if (!torques.ignored.empty())
+    say("{}: columns other than t_s, {} … {} are ignored: {}\n", shownPath(file), effortColumn(motors, 0),
+        effortColumn(motors, motor_count - 1), shown(fmt::format("{}", fmt::join(torques.ignored, ", ")), 400));
+  return torques;
+}
+
+namespace {
+
+bool coloured() {
+  return report::wantsColour(::isatty(::fileno(stdout)) == 1, std::getenv("NO_COLOR"), std::getenv("TERM"));
+}
+
+std::string summaryOf(const SuiteEntry& entry, const std::filesystem::path& dir) {
+  if (!entry.error.empty()) return report::errorJson(entry.scenario, entry.error);
+  std::ifstream file(dir / entry.folder / "summary.json", std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+void printResult(const ValidationResult& result, const std::filesystem::path& dir, PrintedForm form) {
+  switch (form) {
+    case PrintedForm::json:
+      return writeOutput("-", report::summaryJson(result));
+    case PrintedForm::verdict:
+      return writeOutput("-", report::quietText(result, coloured()));
+    case PrintedForm::table:
+      break;
+  }
+  writeOutput("-", report::validationText(result, coloured()) + "report: " + (dir / "report.html").string() + "\n");
+}
+
+void printSuite(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir, PrintedForm form) {
+  if (form == PrintedForm::table) return writeOutput("-", report::suiteText(entries, dir, coloured()));
+  std::string out = form == PrintedForm::json ? "[\n" : "";
+  for (const SuiteEntry& entry : entries)
+    out += form == PrintedForm::json ? (&entry == &entries.front() ? "" : ",\n") + summaryOf(entry, dir)
+                                     : report::quietText(entry, coloured());
+  writeOutput("-", out + (form == PrintedForm::json ? "]\n" : ""));
+}
+
+int exitCode(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::pass:
+      return exit_passed;
+    case Verdict::inconclusive:
+      return exit_inconclusive;
+    case Verdict::fail:
+    case Verdict::not_applicable:
+      break;
+  }
+  return exit_failed;
+}
+
+int exitCode(const std::vector<SuiteEntry>& entries) {
+  const auto any = [&entries](int code) {
+    return std::any_of(entries.begin(), entries.end(), [code](const SuiteEntry& entry) {
+      return (entry.error.empty() ? exitCode(entry.verdict) : exit_failed) == code;
+    });
+  };
+  for (const int code : {exit_failed, exit_inconclusive})
+    if (any(code)) return code;
+  return exit_passed;
+}
+
+}  // namespace ursula

@@ -1,0 +1,226 @@
+#include "validation/evidence/external_evidence.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "validation/replay/windows.h"
+#include "validation/subject/subject.h"
+#include "validation/subject/torque_spline.h"
+
+namespace ursula {
+
+double ExternalTorques::largestPrecision() const {
+  double largest = 0;
+  for (const Vector6d& row : precision) largest = std::max(largest, row.maxCoeff());
+  return largest;
+}
+
+std::string ExternalTorques::precisionInWords(const Units& units) const {
+  const double largest = largestPrecision();
+  return largest == 0 ? "; the file's digits are as fine as doubles and add nothing"
+                      : fmt::format(
+                            "; and half a unit of the last digit printed (torques of up to {} significant digits, "
+                            "instants), up to {:.3g} {}",
+                            file.digits, largest * units.effort(), units.efforts.unit);
+}
+
+namespace {
+
+/// The deviation of the leg that exceeds its own limit most, or is nearest to it.
+Deviation deviationOf(const Vector6d& torques, const Vector6d& exact, const Vector6d& precision, double rounding) {
+  Deviation out;
+  double worst = -1;
+  for (int i = 0; i < motor_count; ++i) {
+    const double error = std::abs(torques(i) - exact(i)), limit = rounding + precision(i);
+    const double ratio = error / limit;
+    if (ratio <= worst) continue;
+    worst = ratio;
+    out = {error, limit, i, precision(i)};
+    if (std::isnan(ratio)) break;
+  }
+  return out;
+}
+
+/// The change of the torques if the instant is off by its last digit.
+Vector6d changeWithin(const std::function<Vector6d(double)>& noc, double t, double precision, double duration) {
+  if (precision == 0) return Vector6d::Zero();
+  const Vector6d here = noc(t);
+  const Vector6d before = (noc(std::max(0.0, t - precision)) - here).cwiseAbs();
+  const Vector6d after = (noc(std::min(duration, t + precision)) - here).cwiseAbs();
+  return before.cwiseMax(after);
+}
+
+}  // namespace
+
+ExternalTorques runExternal(const Scenario& scenario, const TorqueFile& file, const Deadline& deadline) {
+  const double duration = scenario.trajectory->duration();
+  ExternalTorques out;
+  out.file = within(file, duration);
+  const Subject noc_subject = nocSubject(*scenario.manipulator, scenario.load);
+  const auto noc = [&](double t) { return noc_subject.torques(scenario.trajectory->at(t)); };
+  Subject subject;
+  subject.name = file.file.filename().string();
+  subject.torques = [&](const Motion<double>& motion) {  // called only at the file's own instants
+    const auto row = std::lower_bound(out.file.t.begin(), out.file.t.end(), motion.t) - out.file.t.begin();
+    return out.file.torques.at(static_cast<std::size_t>(row));
+  };
+  out.samples = runPointwise(scenario, subject, out.file.t, deadline);
+  for (std::size_t k = 0; k < out.file.rows(); ++k) {
+    deadline.require();
+    const double t = out.file.t[k];
+    PointwiseSample& sample = out.samples[k];
+    const Vector6d precision =
+        out.file.torque_precision[k] + changeWithin(noc, t, out.file.time_precision[k], duration);
+    const double rounding = sample.conditioning.torqueRounding();
+    out.noc.push_back(noc(t));
+    out.precision.push_back(precision);
+    sample.torque = deviationOf(sample.torques, sample.torques_simbody, precision, rounding);
+    sample.acceleration.given = sample.conditioning.response * precision.norm();
+    sample.acceleration.limit += sample.acceleration.given;
+    out.against_noc.push_back(deviationOf(sample.torques, out.noc.back(), precision, rounding));
+  }
+  return out;
+}
+
+namespace {
+
+/// Errors of the spline through the file's torques, and their effect on the platform.
+class SplineLimit {
+ public:
+  /// `grid` holds equally spaced instants of the motion.
+  SplineLimit(const Scenario& scenario, const ExternalTorques& torques, std::vector<double> grid,
+              const Deadline& deadline)
+      : t_(torques.file.t), grid_(std::move(grid)) {
+    const RoundingProfile profile(scenario, profileInstants(static_cast<int>(grid_.size())), deadline);
+    for (double t : grid_) {
+      deadline.require();
+      conditioning_.push_back(profile.at(scenario.trajectory->at(t)));
+      position_scale_ = std::max(position_scale_, conditioning_.back().position_scale);
+      forces_.include(conditioning_.back());
+    }
+    const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
+    interpolation_ = interpolationErrors(t_, [&](double t) { return noc.torques(scenario.trajectory->at(t)); });
+    std::vector<double> norms;
+    for (const Vector6d& row : torques.precision) norms.push_back(row.norm());
+    digits_ = carriedErrors(t_, norms);
+  }
+
+  /// The error of the platform's acceleration: the largest within one grid step of t, m/s².
+  double operator()(double t) const {
+    const double h = grid_[1] - grid_[0];
+    const auto k = std::min(static_cast<std::size_t>(std::lround(t / h)), grid_.size() - 1);
+    double response = 0, rounding = 0;
+    for (std::size_t j = k == 0 ? 0 : k - 1; j <= std::min(k + 1, grid_.size() - 1); ++j) {
+      response = std::max(response, conditioning_[j].response);
+      rounding = std::max(rounding, conditioning_[j].accelerationRounding());
+    }
+    return rounding + response * splineError(t - h, t + h);
+  }
+
+  double positionScale() const { return position_scale_; }
+  const LoopForces& forces() const { return forces_; }
+  double length() const { return conditioning_.front().length; }
+  double largestInterpolation() const { return *std::max_element(interpolation_.begin(), interpolation_.end()); }
+  double largestOfDigits() const { return *std::max_element(digits_.begin(), digits_.end()); }
+
+ private:
+  double splineError(double from, double to) const {
+    const auto last = static_cast<std::ptrdiff_t>(interpolation_.size()) - 1;
+    const auto first = std::upper_bound(t_.begin(), t_.end(), from) - t_.begin() - 1;
+    double largest = 0;
+    for (auto j = std::clamp<std::ptrdiff_t>(first, 0, last); j <= last; ++j) {
+      const auto i = static_cast<std::size_t>(j);
+      if (t_[i] > to && i > 0) break;
+      largest = std::max(largest, interpolation_[i] + digits_[i]);
+    }
+    return largest;
+  }
+
+  std::vector<double> t_, grid_;
+  std::vector<Conditioning> conditioning_;
+  std::vector<double> interpolation_, digits_;  ///< N·m, one per interval of t_
+  double position_scale_ = 0;
+  LoopForces forces_;
+};
+
+/// Returns why no spline covers the whole motion; empty if one does.
+std::string missing(const ExternalTorques& torques, double duration, const Units& units) {
+  const TorqueFile& file = torques.file;
+  if (file.rows() < TorqueSpline::least_samples)
+    return fmt::format("too few samples, {}; a quintic spline needs {}", file.rows(), TorqueSpline::least_samples);
+  if (covers(file, duration)) return "";
+  return fmt::format("the samples cover {:.6g} to {:.6g} s of a motion from 0 to {:.6g} s", file.t.front() * units.time,
+                     file.t.back() * units.time, duration * units.time);
+}
+
+/// Returns the worst window if even the shortest windows' bounds exceed the useful limit; else null.
+const GrowthWindow* hopeless(const ReplayPlan& plan, const std::vector<GrowthWindow>& windows, double useful) {
+  const GrowthWindow* worst = nullptr;
+  double largest = useful;
+  for (const GrowthWindow& window : windows) {
+    const double bound = plannedBound(plan, window);
+    if (!(bound <= largest)) worst = &window, largest = bound;
+  }
+  return worst;
+}
+
+std::string splineBasis(const SplineLimit& limit, std::size_t rows, const Units& units) {
+  return fmt::format(
+      "between the {} samples: interpolation up to {:.3g} {} (the NOC's torques on a quintic spline through the same "
+      "instants), printed digits up to {:.3g} {}, both x || T_P inv(I) ||",
+      rows, limit.largestInterpolation() * units.effort(), units.efforts.unit, limit.largestOfDigits() * units.effort(),
+      units.efforts.unit);
+}
+
+}  // namespace
+
+ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& torques, const Units& units,
+                              const Deadline& deadline) {
+  const double duration = scenario.trajectory->duration();
+  ExternalReplay out;
+  out.amplification = std::make_shared<const Amplification>(linearised(scenario, deadline));
+  out.not_replayed = missing(torques, duration, units);
+  if (!out.not_replayed.empty()) {
+    out.between = std::numeric_limits<double>::infinity();
+    return out;
+  }
+
+  const Amplification& amplification = *out.amplification;
+  const auto limit = std::make_shared<const SplineLimit>(scenario, torques, amplification.instants(), deadline);
+  const auto spline = std::make_shared<const TorqueSpline>(torques.file.t, torques.file.torques);
+  const double knot_rate = static_cast<double>(torques.file.rows()) / duration;
+  ReplayPlan plan;
+  plan.torques = [spline](double t) { return (*spline)(t); };
+  plan.acceleration = [limit](double t) { return (*limit)(t); };
+  plan.deadline = deadline;
+  plan.position_scale = limit->positionScale();
+  plan.step_rate = std::max(plannedStepRate(duration), 2 * knot_rate);
+  plan.tolerance = reachableTolerance(scenario, plan.step_rate);
+  plan.max_evaluations = enoughEvaluations(scenario, plan.step_rate);
+  const std::vector<GrowthWindow> windows = planWindows(amplification, plan);
+  const double useful = useful_replay_limit * limit->length();
+  const std::string basis = splineBasis(*limit, torques.file.rows(), units);
+  if (const GrowthWindow* window = hopeless(plan, windows, useful)) {
+    const double bound = plannedBound(plan, *window);
+    out.not_replayed = fmt::format(
+        "too few samples or digits; from t = {:.6g} s the torques' error between samples may move P by "
+        "{:.3g} m within {:.3g} s, beyond {:.3g} m a limit says nothing",
+        window->start() * units.time, bound * units.length, (window->end() - window->start()) * units.time,
+        useful * units.length);
+    out.bound = bound;
+    out.between = limit->largestInterpolation();
+    out.spline = basis;
+    return out;
+  }
+  out.plan = plan;
+  out.windows = replayInWindows(scenario, plan, windows);
+  measureOpening(torques.samples, out.windows);
+  out.scales = {limit->positionScale(), limit->length(), limit->forces()};
+  out.spline = basis;
+  return out;
+}
+
+}  // namespace ursula
