@@ -2,7 +2,7 @@
 
 #include "apps/usage.h"
 #include "apps/verbs.h"
-#include "report/explanation.h"
+#include "report/result_facts.h"
 #include "studies/scenario_docs/scenario_docs.h"
 
 namespace ursula {

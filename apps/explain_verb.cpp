@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "apps/verbs.h"
-#include "report/explanation.h"
+#include "report/result_facts.h"
 
 namespace ursula {
 namespace {

@@ -14,7 +14,7 @@
 #include "base/text.h"
 #include "report/terminal.h"
 #include "report/written_files.h"
-#include "validation/subject/effort_columns.h"
+#include "validation/subject/torque_names.h"
 
 namespace ursula {
 

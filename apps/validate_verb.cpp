@@ -21,7 +21,6 @@
 #include "studies/suite/suite.h"
 #include "validation/outside/external_solver.h"
 #include "validation/validate.h"
-#include "validation/validate_external.h"
 
 namespace ursula {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "base/angles.h"
+#include "base/scalar.h"
 
 namespace ursula {
 namespace {

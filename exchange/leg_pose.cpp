@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/angles.h"
+#include "base/scalar.h"
 
 namespace ursula::exchange {
 namespace {

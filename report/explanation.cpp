@@ -1,4 +1,4 @@
-#include "report/explanation.h"
+#include "report/result_facts.h"
 
 #include <fmt/format.h>
 

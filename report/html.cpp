@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "base/text.h"
-#include "report/assets.h"
+#include "report/page.h"
 #include "report/picture.h"
 #include "report/plots.h"
 #include "report/quantity.h"

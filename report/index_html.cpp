@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "model/check_catalogue.h"
-#include "report/assets.h"
+#include "report/page.h"
 #include "report/plots.h"
 #include "report/quantity.h"
 #include "report/run.h"

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "report/picture.h"
-#include "report/plot_builder.h"
 #include "report/plots.h"
 #include "report/singular.h"
 #include "report/text.h"

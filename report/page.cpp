@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "report/assets.h"
 #include "report/quantity.h"
 #include "report/sections.h"
 #include "report/text.h"

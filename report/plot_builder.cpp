@@ -1,4 +1,4 @@
-#include "report/plot_builder.h"
+#include "report/plots.h"
 
 #include <algorithm>
 

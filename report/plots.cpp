@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "model/scenario.h"
-#include "report/plot_builder.h"
 #include "report/result_facts.h"
 #include "report/text.h"
 #include "validation/verdict/effort_words.h"

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "report/plot_builder.h"
 #include "report/plots.h"
 #include "report/quantity.h"
 #include "report/text.h"

@@ -12,7 +12,7 @@ HEADERS = {
     "solver": ["nocsolver/solver.h", "nocsolver/fast/batch_dynamics.h", "nocsolver/fast/parallel/threaded_batch.h",
                "nocsolver/fast/effort_derivatives.h", "nocsolver/poses/direct_kinematics.h", "nocsolver/poses/ups_poses.h"],
     "validate": ["validation/subject/subject.h", "validation/validate.h", "validation/outside/outside_solver.h",
-                 "validation/validate_external.h", "validation/verdict/result.h"],
+                 "validation/validate.h", "validation/verdict/result.h"],
     "report": ["report/report.h", "report/written_files.h"],
     "studies": ["studies/simulate/simulate.h", "studies/check_scenario/check_scenario.h", "studies/map/pose_map.h",
                 "studies/compare/compare.h"],

@@ -1,4 +1,4 @@
-#include "validation/validate_external.h"
+#include "validation/validate.h"
 
 #include <fmt/format.h>
 

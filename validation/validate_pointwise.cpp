@@ -1,4 +1,4 @@
-#include "validation/validate_pointwise.h"
+#include "validation/validate.h"
 
 #include <algorithm>
 

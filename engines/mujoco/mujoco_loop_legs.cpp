@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "base/angles.h"
+#include "base/scalar.h"
 #include "engines/mujoco/mujoco_loop_internal.h"
 
 namespace ursula::mujoco {

@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "base/angles.h"
+#include "base/scalar.h"
 #include "base/text.h"
 #include "exchange/recognise/chains.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/angles.h"
+#include "base/scalar.h"
 #include "base/text.h"
 #include "exchange/import_error.h"
 

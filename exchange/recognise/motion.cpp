@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/angles.h"
+#include "base/scalar.h"
 #include "exchange/import_error.h"
 #include "exchange/leg_pose.h"
 #include "exchange/recognise/legs.h"

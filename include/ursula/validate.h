@@ -6,4 +6,3 @@
 #include "include/ursula/abi.h"
 #include "validation/outside/outside_solver.h"
 #include "validation/validate.h"
-#include "validation/validate_external.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/angles.h"
+#include "base/scalar.h"
 #include "model/legs/leg_type.h"
 
 namespace ursula {

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "base/angles.h"
+#include "base/scalar.h"
 #include "model/legs/leg_type.h"
 
 namespace ursula {

@@ -5,9 +5,9 @@
 
 #include "model/manipulator.h"
 #include "model/motion.h"
+#include "nocsolver/fast/fast_dynamics.h"
 #include "nocsolver/fast/instruction_set.h"
 #include "nocsolver/fast/kernels/machine_model.h"
-#include "nocsolver/fast/pose_fault.h"
 
 namespace ursula {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <type_traits>
 
 #include "model/manipulator.h"
@@ -9,6 +10,17 @@
 #include "nocsolver/fast/legs_at_once.h"
 
 namespace ursula {
+
+/// Why a pose of a batch has no answer; the first fault, in the order of the legs.
+enum class PoseFault : std::uint8_t {
+  none,
+  out_of_reach,
+  end_of_stroke,
+  point_on_axis,
+  stretched_leg,
+  singular_jacobian,
+  not_finite  ///< pose, efforts or load are too large, too small or NaN for a finite answer
+};
 
 /// Inverse and direct dynamics of any machine, each leg in its own plane (kernels/plane_dynamics.h). It forms no angle
 /// and no T, and keeps no state. The batch (batch_dynamics.h) uses the same formulas. Noc, which forms T, is the

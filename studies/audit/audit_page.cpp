@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "report/assets.h"
 #include "report/page.h"
 #include "report/text.h"
 #include "studies/audit/audit.h"

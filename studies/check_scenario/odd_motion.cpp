@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/angles.h"
+#include "base/scalar.h"
 #include "model/instants.h"
 #include "model/legs/leg_type.h"
 #include "model/scenario_files.h"

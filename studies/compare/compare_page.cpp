@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "base/output_folder.h"
-#include "report/assets.h"
 #include "report/page.h"
 #include "report/plots.h"
 #include "report/quantity.h"

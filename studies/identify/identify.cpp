@@ -8,7 +8,7 @@
 #include "base/provenance.h"
 #include "studies/identify/judge.h"
 #include "studies/identify/results.h"
-#include "validation/subject/effort_columns.h"
+#include "validation/subject/torque_names.h"
 
 namespace ursula {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "base/csv.h"
 #include "base/text.h"
-#include "validation/subject/effort_columns.h"
 #include "validation/subject/torque_names.h"
 
 namespace ursula::identification {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/assets.h"
 #include "report/page.h"
 #include "report/plots.h"
 #include "report/text.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <regex>
 
-#include "validation/subject/effort_columns.h"
+#include "validation/subject/torque_names.h"
 
 namespace ursula::identification {
 namespace {

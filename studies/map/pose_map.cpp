@@ -8,15 +8,15 @@
 #include <limits>
 #include <memory>
 
-#include "base/angles.h"
+#include "base/scalar.h"
 #include "base/text.h"
 #include "model/instants.h"
 #include "nocsolver/fast/batch_dynamics.h"
 #include "nocsolver/legs/leg_model.h"
 #include "nocsolver/solver.h"
-#include "validation/subject/effort_columns.h"
 #include "validation/subject/scaled_jacobian.h"
 #include "validation/subject/subject.h"
+#include "validation/subject/torque_names.h"
 
 namespace ursula {
 namespace {

@@ -1,4 +1,4 @@
-#include "studies/prove/defect_helpers.h"
+#include "studies/prove/defects.h"
 
 #include <algorithm>
 #include <iterator>

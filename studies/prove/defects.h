@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "model/scenario.h"
+#include "nocsolver/solver.h"
 #include "validation/evidence/injected_fault.h"
 #include "validation/subject/parameters.h"
 #include "validation/subject/subject.h"
@@ -32,5 +35,81 @@ std::vector<Defect> allDefects(const Manipulator& machine);
 
 /// The solver with one wrong parameter.
 Subject disturbedSubject(const Scenario& scenario, const Parameter& parameter, double relative);
+
+}  // namespace ursula
+
+// Helpers for the groups of defects. Internal.
+
+namespace ursula {
+
+using ChangeMachine = std::function<void(ManipulatorParameters&)>;
+using ChangeMotion = std::function<void(Motion<double>&)>;
+/// `right` are the right solver's torques at `motion`.
+using ChangeTorques = std::function<Vector6d(const Vector6d& right, const Motion<double>& motion)>;
+
+Manipulator changedMachine(const Manipulator& machine, const ChangeMachine& change);
+
+/// The NOC with a fault in its formulas, in its input or in a leg.
+Defect wrongFormula(const std::string& name, const char* group, const WithFormulaErrors& fault);
+
+/// The same mechanism without a defect. It must pass; otherwise the mechanism itself triggers the checks.
+Defect control(Defect without_defect);
+
+/// The solver of another machine.
+Defect wrongMachine(const std::string& name, const std::string& group, const ChangeMachine& change);
+
+/// Gives the solver another motion than the commanded one.
+Defect wrongMotion(const std::string& name, const ChangeMotion& change);
+
+/// Changes only the solver's torques; `change` creates the change for the scenario.
+Defect wrongTorques(const std::string& name, const std::string& group,
+                    const std::function<ChangeTorques(const Scenario&)>& change);
+
+/// Torques for a force against each joint, by power balance with the joints' rates for a unit rate of each motor.
+Vector6d onActuators(const Solver<double>& solver, const Motion<double>& motion, const JointVariables<double>& forces);
+
+/// Torques for a wrench on the platform, [moment about P; force].
+Vector6d onActuators(const Solver<double>& solver, const Motion<double>& motion, const Vector6d& wrench);
+
+/// The two ends of a pulse: at `share` of the motion and a 3000th of it later.
+struct Pulse {
+  double from = 0, to = 0;  ///< s
+  Pulse(const Trajectory& trajectory, double share);
+  bool has(double t) const { return t >= from && t <= to; }
+};
+
+void append(std::vector<Defect>& to, std::vector<Defect> more);
+
+/// The index of leg `number`, 1-based; with fewer legs it counts on from the first.
+inline std::size_t legOf(const Manipulator& machine, int number) {
+  return static_cast<std::size_t>((number - 1) % machine.legCount());
+}
+/// Returns another leg than legOf(machine, number).
+std::size_t otherLeg(const Manipulator& machine, int number, std::size_t than);
+
+/// The coordinates of a leg, from its base.
+inline const std::array<Coordinate, 3>& coordinatesOf(const Manipulator& machine, std::size_t leg) {
+  return rowOf(machine.parameters().legs[leg].kind).coordinates;
+}
+/// The kinds of the machine's legs, each once.
+std::vector<LegKind> kindsOf(const Manipulator& machine);
+
+// The groups of defects. Each is for any machine unless its comment says otherwise.
+std::vector<Defect> formulaDefects(const Manipulator& machine);  ///< in noc/ and the paper's leg
+std::vector<Defect> legDefects(const Manipulator& machine);      ///< in legs of other kinds
+std::vector<Defect> fastDefects(const Manipulator& machine);
+std::vector<Defect> parameterDefects(const Manipulator& machine);
+std::vector<Defect> indexDefects(const Manipulator& machine);
+std::vector<Defect> frameDefects(const Manipulator& machine);
+std::vector<Defect> frictionDefects(const Manipulator& machine);
+std::vector<Defect> motionDefects(const Manipulator& machine);
+std::vector<Defect> torqueDefects(const Manipulator& machine);
+std::vector<Defect> branchDefects(const Manipulator& machine);
+std::vector<Defect> kinematicDefects(const Manipulator& machine);
+std::vector<Defect> directDefects(const Manipulator& machine);
+std::vector<Defect> hiddenDefects(const Manipulator& machine);
+std::vector<Defect> sharedMotionDefects(const Manipulator& machine);
+std::vector<Defect> sharedLoadDefects(const Manipulator& machine);
+std::vector<Defect> experimentDefects(const Manipulator& machine);
 
 }  // namespace ursula

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "engines/further_engines.h"
-#include "studies/prove/defect_helpers.h"
+#include "studies/prove/defects.h"
 
 namespace ursula {
 namespace {

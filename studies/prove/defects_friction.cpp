@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "studies/prove/defect_helpers.h"
+#include "studies/prove/defects.h"
 
 namespace ursula {
 namespace {

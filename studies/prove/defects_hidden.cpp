@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "studies/prove/defect_helpers.h"
+#include "studies/prove/defects.h"
 
 namespace ursula {
 namespace {

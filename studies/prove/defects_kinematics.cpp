@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "nocsolver/solver.h"
-#include "studies/prove/defect_helpers.h"
+#include "studies/prove/defects.h"
 
 namespace ursula {
 namespace {

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "studies/prove/defect_helpers.h"
+#include "studies/prove/defects.h"
 
 namespace ursula {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 
-#include "base/angles.h"
-#include "studies/prove/defect_helpers.h"
+#include "base/scalar.h"
+#include "studies/prove/defects.h"
 
 namespace ursula {
 namespace {

@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 
 #include "model/exact_trajectory.h"
-#include "studies/prove/defect_helpers.h"
 #include "studies/prove/defects.h"
 
 namespace ursula {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "nocsolver/solver.h"
-#include "studies/prove/defect_helpers.h"
+#include "studies/prove/defects.h"
 
 namespace ursula {
 namespace {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "model/check_catalogue.h"
-#include "report/assets.h"
 #include "report/page.h"
 #include "report/quantity.h"
 #include "report/sections.h"

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "base/angles.h"
+#include "base/scalar.h"
 #include "studies/random/random_parts.h"
 
 namespace ursula {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/angles.h"
+#include "base/scalar.h"
 #include "model/trajectories/trajectories.h"
 
 namespace ursula {

@@ -15,7 +15,6 @@
 #include "studies/sweep/worker_pool.h"
 #include "validation/checks/judges.h"
 #include "validation/validate.h"
-#include "validation/validate_pointwise.h"
 
 namespace ursula {
 namespace {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "report/heat_map.h"
-#include "report/plot_builder.h"
 #include "report/plots.h"
 #include "report/quantity.h"
 #include "report/text.h"

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "model/check_catalogue.h"
-#include "report/explanation.h"
+#include "report/result_facts.h"
 #include "report/text.h"
 #include "tests/report/report_samples.h"
 #include "tests/support/numbers.h"

@@ -11,7 +11,7 @@
 #include <set>
 #include <sstream>
 
-#include "report/assets.h"
+#include "report/page.h"
 
 namespace ursula {
 namespace {

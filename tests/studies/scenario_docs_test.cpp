@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/scenario_keys.h"
-#include "report/explanation.h"
+#include "report/result_facts.h"
 #include "tests/base/temporary_folder.h"
 
 namespace ursula {

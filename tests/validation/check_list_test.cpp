@@ -12,7 +12,7 @@
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/families.h"
 #include "validation/checks/judges.h"
-#include "validation/validate_external.h"
+#include "validation/validate.h"
 
 namespace ursula {
 namespace {

@@ -1,6 +1,6 @@
 // Somebody else's torques judged: exact ones are never called wrong, wrong ones never pass, few ones are inconclusive.
 
-#include "validation/validate_external.h"
+#include "validation/validate.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -22,7 +22,6 @@
 #include "validation/evidence/reference.h"
 #include "validation/replay/observed_order.h"
 #include "validation/validate.h"
-#include "validation/validate_external.h"
 
 namespace ursula {
 namespace {

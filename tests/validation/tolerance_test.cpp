@@ -9,7 +9,6 @@
 #include "tests/validation/external_torques.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/validate.h"
-#include "validation/validate_external.h"
 
 namespace ursula {
 namespace {

@@ -9,8 +9,6 @@
 #include "tests/support/vectors.h"
 #include "validation/outside/outside_solver.h"
 #include "validation/validate.h"
-#include "validation/validate_external.h"
-#include "validation/validate_pointwise.h"
 
 namespace ursula {
 namespace {

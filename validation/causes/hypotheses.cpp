@@ -7,7 +7,7 @@
 #include <functional>
 #include <optional>
 
-#include "base/angles.h"
+#include "base/scalar.h"
 #include "validation/causes/cause.h"
 #include "validation/causes/hypothesis_terms.h"
 #include "validation/causes/tried_causes.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/angles.h"
+#include "base/scalar.h"
 #include "validation/causes/tried_causes.h"
 
 namespace ursula {

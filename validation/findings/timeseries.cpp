@@ -10,7 +10,7 @@
 #include "model/quaternions.h"
 #include "validation/findings/findings.h"
 #include "validation/replay/windows.h"
-#include "validation/subject/effort_columns.h"
+#include "validation/subject/torque_names.h"
 
 namespace ursula {
 namespace {

@@ -8,7 +8,6 @@
 #include <iterator>
 #include <optional>
 
-#include "base/angles.h"
 #include "base/scalar.h"
 #include "engines/simbody/simbody_loop.h"
 #include "validation/subject/frame_change.h"

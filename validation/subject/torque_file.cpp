@@ -11,7 +11,7 @@
 
 #include "base/csv.h"
 #include "base/text.h"
-#include "validation/subject/effort_columns.h"
+#include "validation/subject/torque_names.h"
 
 namespace ursula {
 namespace {

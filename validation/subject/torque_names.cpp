@@ -6,8 +6,6 @@
 #include <cctype>
 #include <regex>
 
-#include "validation/subject/effort_columns.h"
-
 namespace ursula {
 namespace {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "base/angles.h"
 #include "base/quintic_spline.h"
+#include "base/scalar.h"
 
 namespace ursula {
 namespace {

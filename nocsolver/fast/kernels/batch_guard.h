@@ -3,8 +3,8 @@
 // The requirements on a leg's displacement, in every lane of a pack. Internal; leg_kernels.h handles one pose at a
 // time.
 
+#include "nocsolver/fast/fast_dynamics.h"
 #include "nocsolver/fast/kernels/pack.h"
-#include "nocsolver/fast/pose_fault.h"
 
 namespace ursula::kernel {
 

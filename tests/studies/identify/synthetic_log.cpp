@@ -7,8 +7,8 @@
 #include "engines/simbody/simbody_loop.h"
 #include "studies/identify/log_columns.h"
 #include "studies/identify/platform_motion.h"
-#include "validation/subject/effort_columns.h"
 #include "validation/subject/subject.h"
+#include "validation/subject/torque_names.h"
 
 namespace ursula {
 
