@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Runs the examples of a page of docs/, in order, in a folder of their own: run_docs.py PROGRAM PAGE… [--module FOLDER].
+"""Runs the examples of a page of docs/, in order, in a folder of their own: run_docs.py PROGRAM PAGE… [--module FOLDER] [--long].
 
     ```console   commands after `$ `, then the lines of their output that matter, in order. `…` stands for any text, and
                  white space does not count. Numbers are compared to the digits shown, give or take one of the last; below 1e-6 both must be.
                  A command must succeed; one that must fail is followed by `|| echo "exit code $?"`.
+    ```console long    the same, if it takes a minute: it is left out without --long.
     ```python    a program, run by itself; a ```text block after it is its output.
     ```cpp       stands letter for letter in a file of examples/, which other tests build and run.
     ```sh        commands that a test cannot run: the build, packages, containers, but nothing of `ursula`.
@@ -20,7 +21,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-BLOCK = re.compile(r"^```(\S*)[^\n]*\n(.*?)^```$", re.M | re.S)
+BLOCK = re.compile(r"^```(\S*)( long)?[^\n]*\n(.*?)^```$", re.M | re.S)
 NAMED = re.compile(r"(?:#|//|%) ([\w-]+\.\w+)$")
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?(?![\w.]*\d)")
 NOT_RUN = ("./dev ", "cmake ", "git ", "apt", "sudo ", "docker ", "podman ", "#", "cd ")
@@ -32,8 +33,8 @@ class Wrong(Exception):
     pass
 
 
-def blocks(text):
-    return [(match[1], match[2], text.count("\n", 0, match.start()) + 1) for match in BLOCK.finditer(text)]
+def blocks(text, long=True):
+    return [(match[1], match[3], text.count("\n", 0, match.start()) + 1) for match in BLOCK.finditer(text) if long or not match[2]]
 
 
 def same_number(shown, found):
@@ -133,9 +134,9 @@ class Runner:
             raise Wrong("a block without a language has a command, expected a console block")
 
 
-def run_page(page, program, module):
+def run_page(page, program, module, long=False):
     """The number of blocks that were run; raises Wrong with the place."""
-    found = blocks(page.read_text(encoding="utf-8"))
+    found = blocks(page.read_text(encoding="utf-8"), long)
     with tempfile.TemporaryDirectory() as folder:
         runner = Runner(Path(folder), program, module)
         for k, (language, body, line) in enumerate(found):
@@ -152,11 +153,13 @@ def main():
     parser.add_argument("program", type=Path)
     parser.add_argument("pages", type=Path, nargs="+")
     parser.add_argument("--module", type=Path)
+    parser.add_argument("--long", action="store_true")
     given = parser.parse_args()
     failed = False
     for page in given.pages:
         try:
-            print(f"{page}: {run_page(page, given.program.resolve(), given.module and given.module.resolve())} blocks run")
+            count = run_page(page, given.program.resolve(), given.module and given.module.resolve(), given.long)
+            print(f"{page}: {count} blocks run")
         except Wrong as error:
             print(error, file=sys.stderr)
             failed = True

@@ -69,6 +69,14 @@ def test_numbers_are_compared_to_the_digits_shown(shown, found, same):
     assert run_docs.matches(shown, found) == same
 
 
+def test_what_is_long_is_left_out_unless_asked_for(tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text("```console long\n$ exit 3\n```\n" + GOOD)
+    assert run_docs.run_page(page, PROGRAM, MODULE) == 2
+    with pytest.raises(run_docs.Wrong, match="exit code 3"):
+        run_docs.run_page(page, PROGRAM, MODULE, long=True)
+
+
 def test_every_page_with_something_to_run_is_run():
     listed = re.search(r"foreach\(page ([^)]*)\)", (ROOT / "tests/site/CMakeLists.txt").read_text())[1].split()
     with_blocks = {page.stem for page in (ROOT / "docs").glob("*.md")
