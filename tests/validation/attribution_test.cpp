@@ -10,6 +10,7 @@
 #include <iostream>
 #include <map>
 
+#include "tests/support/whole.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/evidence/reference.h"
@@ -88,7 +89,16 @@ TEST_P(Budget, isWholeAndLeavesNoMoreThanIsNotKnown) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenarios, Budget, testing::ValuesIn(shippedScenarios()),
+/// Every kind of leg, units and sizes, friction and loads, motions from a third of a second to ten, near singularities.
+std::vector<std::string> budgeted() {
+  if (wholeAsked()) return shippedScenarios();
+  return {"paper-helix",   "flight-simulator", "hexa",      "hexaglide",  "three-legs",
+          "millimetres",   "helix-0.3s",       "helix-10s", "load-table", "near-singular",
+          "ups-near-edge", "viscous-friction", "waypoints", "hold",       "light-legs",
+          "gravity-off"};
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, Budget, testing::ValuesIn(budgeted()),
                          [](const auto& name) { return asTestName(name.param); });
 
 TEST(Attribution, namesTheModelWhereTorquesAreOffByAMillionth) {

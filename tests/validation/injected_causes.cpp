@@ -20,11 +20,16 @@ constexpr int injected_instants = 61;
 /// Puts causes into the torques of one scenario.
 class Bench {
  public:
-  Bench(const std::string& name, std::vector<InjectedCause>& out)
-      : name_(name), scenario_(scenarioOf(name)), exact_(exactTorques(scenario_, injected_instants)), out_(out) {}
+  /// `wanted` is asked once for each cause.
+  Bench(const std::string& name, const std::function<bool()>& wanted, std::vector<InjectedCause>& out)
+      : name_(name),
+        scenario_(scenarioOf(name)),
+        exact_(exactTorques(scenario_, injected_instants)),
+        wanted_(wanted),
+        out_(out) {}
 
   void machine(const std::string& put_in, const std::string& expected, const std::function<void(Machine&)>& change) {
-    add(put_in, expected, ofMachine(change));
+    add(put_in, expected, ofMachine(change).file());
   }
 
   /// The same, printed with few significant digits.
@@ -37,23 +42,25 @@ class Bench {
       for (int i = 0; i < leg_count; ++i) text += fmt::format(",{:.{}g}", torques.torques[k](i), digits);
       text += '\n';
     }
-    out_.push_back({name_, fmt::format("{}; {} digits", put_in, digits), expected,
-                    diagnose(scenario_, runExternal(scenario_, parseTorqueFile(text, "torques.csv"))).cause});
+    add(fmt::format("{}; {} digits", put_in, digits), expected, parseTorqueFile(text, "torques.csv"));
   }
 
   void motion(const std::string& put_in, const std::string& expected,
               const std::function<void(Motion<double>&)>& change) {
     const Subject noc = solverOf(scenario_);
-    add(put_in, expected, exact_.changed([&](std::size_t k, Vector6d& tau) {
-      Motion<double> motion = scenario_.trajectory->at(exact_.t[k]);
-      change(motion);
-      tau = noc.torques(motion);
-    }));
+    add(put_in, expected,
+        exact_
+            .changed([&](std::size_t k, Vector6d& tau) {
+              Motion<double> motion = scenario_.trajectory->at(exact_.t[k]);
+              change(motion);
+              tau = noc.torques(motion);
+            })
+            .file());
   }
 
   void torques(const std::string& put_in, const std::string& expected,
                const std::function<void(std::size_t, Vector6d&)>& change) {
-    add(put_in, expected, exact_.changed(change));
+    add(put_in, expected, exact_.changed(change).file());
   }
 
   void shifted(const std::string& put_in, const std::string& expected, double shift) {
@@ -71,13 +78,14 @@ class Bench {
     return torquesOf(scenario_, nocSubject(Manipulator(machine), scenario_.load), exact_.t);
   }
 
-  void add(const std::string& put_in, const std::string& expected, const TorqueTable& table) {
-    out_.push_back({name_, put_in, expected, diagnose(scenario_, runExternal(scenario_, table.file())).cause});
+  void add(const std::string& put_in, const std::string& expected, const TorqueFile& file) {
+    if (wanted_()) out_.push_back({name_, put_in, expected, diagnose(scenario_, runExternal(scenario_, file)).cause});
   }
 
   std::string name_;
   Scenario scenario_;
   TorqueTable exact_;
+  const std::function<bool()>& wanted_;
   std::vector<InjectedCause>& out_;
 };
 
@@ -269,9 +277,11 @@ bool InjectedCause::isClaimed() const {
   return !said.empty() && said.find("; as well explained by: ") == std::string::npos;
 }
 
-std::vector<InjectedCause> diagnoseInjectedCauses() {
+std::vector<InjectedCause> diagnoseInjectedCauses(int every) {
   std::vector<InjectedCause> out;
-  Bench helix("paper-helix", out), ground("proving-ground", out);
+  int asked = 0;
+  const std::function<bool()> wanted = [&] { return asked++ % every == 0; };
+  Bench helix("paper-helix", wanted, out), ground("proving-ground", wanted, out);
   addToTorques(helix);
   addMasses(helix);
   addLinks(helix);

@@ -19,8 +19,8 @@ struct InjectedCause {
   bool isWrong() const { return isClaimed() && !isNamedFirst(); }
 };
 
-/// All of them, on the paper's helix and on the proving ground.
-std::vector<InjectedCause> diagnoseInjectedCauses();
+/// Each `every`-th of them, on the paper's helix and on the proving ground.
+std::vector<InjectedCause> diagnoseInjectedCauses(int every = 1);
 
 /// The table of docs/diagnosis.md, as Markdown.
 std::string markdownTable(const std::vector<InjectedCause>& causes);
