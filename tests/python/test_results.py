@@ -1,5 +1,6 @@
 """What a result holds beside its verdict, and what a notebook shows of it."""
 
+import functools
 import importlib.util
 import pickle
 import sys
@@ -10,9 +11,14 @@ import pytest
 import ursula
 
 
-def judged(quick, factor):
-    s = ursula.read_scenario(quick)
+@functools.lru_cache(maxsize=None)
+def judged_once(scenario, factor):
+    s = ursula.scenario(scenario)
     return ursula.validate(s, lambda m: factor * s.inverse_dynamics(m), name="mine")
+
+
+def judged(quick, factor):
+    return judged_once(quick.read_text(), factor)
 
 
 def test_findings_are_those_of_the_summary(quick):
@@ -65,7 +71,7 @@ def test_where_no_cause_is_sure_none_is_named(quick):
     noise = ursula.validate(s, lambda m: s.inverse_dynamics(m) * (1 + 1e-3 * np.sin(1e6 * np.asarray(m.t)))[:, None])
     assert noise.summary["provenance"]["subject"] == "your function"
     assert noise.verdict == "fail" and noise.cause is None and noise.summary["cause"] is None
-    right = ursula.validate(s, s.inverse_dynamics)
+    right = judged(quick, 1)
     assert right.verdict == "pass" and right.cause is None and right.causes == [] and right.terms == {}
 
 
