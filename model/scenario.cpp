@@ -98,17 +98,6 @@ Scenario assemble(const TomlSection& document) {
 
 }  // namespace
 
-PlacedError PlacedError::in(const std::string& text) const {
-  PlacedError out = *this;
-  if (out.excerpt_.empty() && line_ > 0) out.excerpt_ = excerptOf(text, line_, column_);
-  return out;
-}
-
-std::string atLength(const ScenarioError& error) {
-  const auto* placed = dynamic_cast<const PlacedError*>(&error);
-  return placed == nullptr || placed->excerpt().empty() ? error.what() : error.what() + ("\n" + placed->excerpt());
-}
-
 Scenario parseScenario(const std::string& text, const std::filesystem::path& file) {
   toml::table table = parseToml(text, file.string());
   takeTolerances(table, file.string());  // the text keeps them, for statedTolerances()
@@ -120,11 +109,11 @@ Scenario parseScenario(const std::string& text, const std::filesystem::path& fil
     scenario.markAsRead();
     return scenario;
   } catch (const PlacedError& error) {
-    throw error.in(text);
+    throw withOthers(error, document, text);
   } catch (const InvalidParameter& refusal) {
-    throw located(refusal, document).in(text);
+    throw withOthers(located(refusal, document), document, text);
   } catch (const CsvError& error) {
-    throw ScenarioError(error.what());
+    throw withOthers({error.what(), 0, 0}, document, text);
   }
 }
 

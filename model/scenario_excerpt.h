@@ -1,25 +1,32 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "model/scenario.h"
 
 namespace ursula {
 
-/// A ScenarioError that knows its line and column, both from 1, and can show them.
+/// A ScenarioError that knows its line and column, both from 1, and can show them. It may stand for several errors; the
+/// place is that of the first.
 class PlacedError : public ScenarioError {
  public:
   PlacedError(const std::string& what, std::size_t line, std::size_t column)
       : ScenarioError(what), line_(line), column_(column) {}
 
+  /// Several errors as one, a line for each; not empty.
+  static PlacedError together(const std::vector<PlacedError>& errors);
   /// Adds the excerpt of `text`, the whole file.
   PlacedError in(const std::string& text) const;
-  /// Returns the line with a caret below, for people; empty if the line is unknown.
-  const std::string& excerpt() const { return excerpt_; }
+  /// Returns what() with the line and a caret below each error, for people; empty if no line is known.
+  const std::string& atLength() const { return at_length_; }
+  std::pair<std::size_t, std::size_t> position() const { return {line_, column_}; }
 
  private:
   std::size_t line_, column_;
-  std::string excerpt_;
+  std::string at_length_;
 };
 
 /// Returns the error's text, with its place below if that is known.

@@ -106,22 +106,24 @@ void TomlSection::missing(const std::string& key, const std::string& expected) c
   failAt(*table_, fmt::format("missing key '{}'{}, expected {}", key, inPlace(), expected));
 }
 
-void TomlSection::allowOnly(const ScenarioTable& allowed) const {
+std::vector<PlacedError> TomlSection::unknownKeys(const ScenarioTable& allowed) const {
   const std::vector<std::string> keys = allowed.names();
-  // toml++ orders keys by name, but the error names the first in the file.
-  const toml::key* first = nullptr;
+  std::vector<PlacedError> out;
   for (const auto& [key, node] : *table_) {
-    if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
-    const auto position = [](const toml::key& k) {
-      return std::make_pair(k.source().begin.line, k.source().begin.column);
-    };
-    if (!first || position(key) < position(*first)) first = &key;
+    const std::string name(key.str());
+    if (std::find(keys.begin(), keys.end(), name) == keys.end())
+      out.push_back(errorAt(file_, key.source().begin,
+                            fmt::format("unknown key '{}'{}, expected {}{}", shown(name), inPlace(), quotedList(keys),
+                                        didYouMean(name, keys))));
   }
-  if (!first) return;
-  const std::string key(first->str());
-  throw errorAt(
-      file_, first->source().begin,
-      fmt::format("unknown key '{}'{}, expected {}{}", shown(key), inPlace(), quotedList(keys), didYouMean(key, keys)));
+  // toml++ orders keys by name
+  std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.position() < b.position(); });
+  return out;
+}
+
+void TomlSection::allowOnly(const ScenarioTable& allowed) const {
+  if (const std::vector<PlacedError> unknown = unknownKeys(allowed); !unknown.empty())
+    throw PlacedError(unknown.front());
 }
 
 double TomlSection::number(const toml::node& node, const std::string& place) const {

@@ -38,7 +38,9 @@ class TomlSection {
   const std::string& file() const { return file_; }
   const toml::table& table() const { return *table_; }
 
-  /// Throws for the first unknown key and suggests the nearest known one.
+  /// Returns an error for each unknown key, in the order of the file, with the nearest known one.
+  std::vector<PlacedError> unknownKeys(const ScenarioTable& allowed) const;
+  /// Throws the first of them.
   void allowOnly(const ScenarioTable& keys) const;
   bool has(const std::string& key) const { return table_->contains(key); }
 

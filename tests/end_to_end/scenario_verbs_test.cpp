@@ -108,6 +108,20 @@ TEST(CheckVerb, exitsWithTwoForErrorsOfAnyScenarioAndNamesThemAll) {
   EXPECT_EQ(ursula("check good.toml key.toml --picture x.svg").exit_code, 2);
 }
 
+TEST(CheckVerb, tellsEveryErrorOfAScenario) {
+  const Program ursula;
+  ursula.write("bad.toml",
+               replaced(replaced(good_scenario, "mass = 500.0", "weight = 500.0"), "pitch = 1.2", "pitch = 0"));
+  for (const char* verb : {"check", "validate", "inverse"}) {
+    const UrsulaRun run = ursula(std::string(verb) + " bad.toml");
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, AllOf(HasSubstr("bad.toml:5:1: error: unknown key 'weight'"),
+                               HasSubstr("   5 | weight = 500.0\n     | ^\nbad.toml:48:9: error: trajectory.pitch: 0"),
+                               HasSubstr("  48 | pitch = 0\n     |         ^\n")));
+  }
+  EXPECT_EQ(ursula.files(), 1u);
+}
+
 /// Every verb that follows the motion says the same.
 TEST(UnreachableMotion, namesPlaceInstantLegAndMetres) {
   const Program ursula;

@@ -79,8 +79,6 @@ INSTANTIATE_TEST_SUITE_P(
                 "unknown key 'speed' in manipulator.leg_defaults.coulomb, expected 'phi', 'psi', 'theta', 'd', "
                 "'actuated', 'universal', 'knee' or "
                 "'smoothing_speed'"},
-        Refusal{"first_of_two", "mass = 500.0", "@zz = 1\naa = 2\nmass = 500.0",
-                "unknown key 'zz' in manipulator.platform, expected 'mass', 'center_of_mass' or 'inertia'"},
         Refusal{"simulation", "[trajectory]", "[simulation]\n@sample = 3\n[trajectory]",
                 "unknown key 'sample' in simulation, expected 'samples', 'integrator' or 'tolerance', did you mean "
                 "'samples'?"}),
@@ -154,9 +152,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "manipulator.platform.center_of_mass[3]: a string, expected a number"},
         Refusal{"inertia_of_four", "[800.0, 810.0, 820.0]", "@[800.0, 810.0, 820.0, 0.0]",
                 "manipulator.platform.inertia: an array of 4, expected an array of 3 or 6 numbers"},
-        Refusal{"platform", "[manipulator]\n[manipulator.platform]",
-                "[manipulator]\nplatform = @5\n[manipulator.leg_defaults.x]",
-                "manipulator.platform: an integer, expected a table"},
+        Refusal{"platform",
+                "[manipulator.platform]\nmass = 500.0\ncenter_of_mass = [0.0, 0.0, 1.88]\n"
+                "inertia = [800.0, 810.0, 820.0]\n",
+                "platform = @5\n", "manipulator.platform: an integer, expected a table"},
         Refusal{"knee", "friction = {", "knee = @1\nfriction = {",
                 "manipulator.leg_defaults.knee: an integer, expected 'positive' or 'negative'"},
         Refusal{

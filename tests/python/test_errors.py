@@ -129,3 +129,11 @@ def test_a_scenario_that_is_wrong_is_shown_at_the_place():
     with pytest.raises(ursula.ScenarioError) as refused:
         ursula.scenario("name = \"a\"\nmass = [1,,2]\n")
     assert str(refused.value).splitlines()[-2:] == ["   2 | mass = [1,,2]", "     |           ^"]
+
+
+def test_all_that_is_wrong_in_a_scenario_is_shown():
+    with pytest.raises(ursula.ScenarioError) as refused:
+        ursula.scenario("name = \"a\"\nweight = 2\n[manipulator]\ngravity = 9.81\n")
+    said = str(refused.value)
+    assert said.startswith("<text>:2:1: error: unknown key 'weight'") and "\n<text>:4:11: error: manipulator.gravity: a float" in said
+    assert said.count("^") == 2
