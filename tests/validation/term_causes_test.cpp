@@ -112,21 +112,29 @@ TEST_P(Terms, softLoopsAreNamedAndNothingAlike) {
   EXPECT_FALSE(softLoops(scenario_, residual(0, 0)).value_or(Hypothesis()).beyond <= 1) << "nor are open loops";
 }
 
-/// A telescopic machine with rotors, on a motion that turns about every axis.
+/// A telescopic machine with rotors, Coulomb friction and a load, on a motion that turns about every axis.
 Scenario withRotors() {
   Scenario scenario = readScenario(std::string(URSULA_SOURCE) + "/apps/starting/UPS.toml");
   scenario.trajectory = std::shared_ptr<const Trajectory>(tumbling(scenario, 3));
   ManipulatorParameters machine = scenario.manipulator->parameters();
   machine.platform.inertia << 50, 4, -3, 4, 60, 5, -3, 5, 95;
   machine.platform.center_of_mass = {0.05, -0.03, 0.2};
-  for (Leg& leg : machine.legs) leg.rotor_inertia.d = 30;
+  for (Leg& leg : machine.legs) {
+    leg.rotor_inertia.d = 30;
+    leg.coulomb.phi = leg.coulomb.psi = leg.coulomb.d = 5;
+    leg.coulomb.smoothing_speed = leg.coulomb.sliding_speed = 0.02;
+  }
   scenario.manipulator = std::make_shared<Manipulator>(machine);
+  Load load;
+  load.force = {40, -30, 20};
+  load.point = {0.2, 0.1, -0.3};
+  scenario.load = std::make_shared<Load>(load);
   return scenario;
 }
 
 std::vector<Cause> causesLike(const Scenario& scenario, const std::string& words) {
   std::vector<Cause> out;
-  for (const auto& causes : {termCauses, loopCauses, slidingCauses, rateCauses, motionCauses})
+  for (const auto& causes : {termCauses, loopCauses, slidingCauses, rateCauses, motionCauses, machineCauses})
     for (const Cause& cause : causes(scenario))
       if (cause.words(0, 0).find(words) != std::string::npos) out.push_back(cause);
   return out;
@@ -141,13 +149,15 @@ TEST_P(Mistake, isNamedAsItself) {
   GivenTorques given{"solver", equallySpaced(scenario.trajectory->duration(), 31), {}};
   std::vector<Motion<double>> motions;
   for (const double t : given.t) motions.push_back(scenario.trajectory->at(t));
-  given.torques = causes.front().torques(0, motions);
+  const double x = causes.front().fitted ? std::log(7.0) : 0;
+  given.torques = causes.front().torques(x, motions);
   const Diagnosis found =
       diagnose(scenario, runExternal(scenario, torqueFileOf(given, scenario.manipulator->motors())));
   ASSERT_TRUE(found.named) << found.cause;
-  const NamedCause expected = causes.front().named(0, 0).value();
+  const NamedCause expected = causes.front().named(x, 0).value();
   EXPECT_EQ(found.named->kind, expected.kind) << found.cause;
   EXPECT_EQ(found.named->term, expected.term) << found.cause;
+  EXPECT_EQ(found.named->parameter, expected.parameter) << found.cause;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -160,7 +170,13 @@ INSTANTIATE_TEST_SUITE_P(
         "cylinders measured back from the platform's joints", "rods measured from the base's joints",
         "Coriolis acceleration halved in the joints' accelerations and the rods'",
         "forces of the legs across their lines", "each leg carries the same part of the platform",
-        "that carry the platform, and those of the legs", "about the platform's mass centre, its own about P",
+        "that carry the platform, and those of the legs", "the legs' forces about the platform's mass centre",
+        "the legs' forces about the base's origin", "the Jacobian about the base's origin",
+        "the platform's forces about the base's origin", "the point where the load acts not turned",
+        "the point where the load acts turned the wrong way", "the rotors' inertia with the wrong sign",
+        "Coriolis acceleration doubled in the joints' accelerations and the rods'",
+        "the Coriolis acceleration of the distal links doubled", "the gyroscopic moment of the links doubled",
+        "the smoothing speed of Coulomb friction, on angles and on d",
         "accelerations without the rate of the Jacobian of legs and platform",
         "second rates of roll, pitch and yaw without the rate", "roll, pitch and yaw turned in the other order",
         "x, y, z turned in the other order", "the position of the platform's mass centre taken for that of P"),

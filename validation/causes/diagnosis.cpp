@@ -265,6 +265,9 @@ Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques, con
   const std::optional<Explanation> digits = fewDigits(motors, torques, asked);
   if (out.summary.empty() && digits) out = deviationTexts(motors, inEveryDigit(torques));
   if (out.summary.empty()) return out;
+  if (const std::size_t off = windowOf(torques).off; off > 0)
+    out.deviation += fmt::format("; off in {} of {} samples, {:.3g} %", off, torques.file.rows(),
+                                 100.0 * static_cast<double>(off) / static_cast<double>(torques.file.rows()));
   const std::optional<Explanation> same = sameAnswers(motors, torques, asked);
   Explanation explanation = same ? *same : digits ? *digits : explanationOf(scenario, torques, asked);
   out.cause = std::move(explanation.text);

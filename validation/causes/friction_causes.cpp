@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "validation/causes/machine_collector.h"
 
@@ -54,8 +55,24 @@ void addFriction(const Manipulator& machine, MachineCauses& out) {
         machine, "Coulomb", "coulomb", slides(coordinate) ? "N" : "N m", coordinate,
         [](Leg& leg) -> JointFriction& { return leg.coulomb; }, out);
   }
-  const NamedCause sharp{CauseKind::parameter, "friction", "legs", "manipulator.leg_defaults.coulomb.smoothing_speed"};
-  out.addFixed({"Coulomb friction without smoothing", sharp}, [](Machine& changed) {
+  const NamedCause speed{CauseKind::parameter, "friction", "legs", "manipulator.leg_defaults.coulomb.smoothing_speed"};
+  const auto has = [&machine](auto&& one) {
+    return std::any_of(machine.parameters().legs.begin(), machine.parameters().legs.end(), one);
+  };
+  // Of angles or of d alone, it is one number, which machine_collector.cpp fits.
+  if (has([](const Leg& leg) { return leg.coulomb.d != 0; }) &&
+      has([](const Leg& leg) { return leg.coulomb.phi != 0 || leg.coulomb.psi != 0 || leg.coulomb.theta != 0; }))
+    out.addFitted(
+        [](Machine& changed, double x) {
+          for (Leg& leg : changed.legs)
+            for (double* each : {&leg.coulomb.smoothing_speed, &leg.coulomb.sliding_speed}) *each *= std::exp(x);
+        },
+        [](double x, double deviation) {
+          return fmt::format("the smoothing speed of Coulomb friction, on angles and on d, times {}",
+                             withDeviation(std::exp(x), deviation * std::exp(x)));
+        },
+        [speed](double, double) { return speed; });
+  out.addFixed({"Coulomb friction without smoothing", speed}, [](Machine& changed) {
     constexpr double sharp_speed = 1e-200;  // every speed is far above it
     for (Leg& leg : changed.legs) leg.coulomb.smoothing_speed = leg.coulomb.sliding_speed = sharp_speed;
   });

@@ -176,17 +176,30 @@ void addJacobians(const Scenario& scenario, EffortCauses& out) {
             const Vector6d wrong = forceAtP(machine, [](std::size_t) { return Vector3d::Zero().eval(); });
             return Vector6d(machine.T_P.transpose() * (wrong - machine.forceAtP()));
           });
-  out.add("the legs' forces about the platform's mass centre, its own about P",
-          {CauseKind::reference_point, "", "platform"}, [&scenario](const MachineTerms& machine) {
-            const auto arm = [&machine](std::size_t i) { return Vector3d(machine.legs[i].arm - machine.rho); };
-            return throughJacobian(machine, jacobianOf(scenario, machine, arm), forceAtP(machine, arm),
-                                   machine.forceAtP());
-          });
-  out.add("the platform's forces at its mass centre taken for such at P", {CauseKind::reference_point, "", "platform"},
-          [](const MachineTerms& machine) {
-            const Vector6d moved = momentWrench(machine.rho.cross(Vector3d(machine.platform_wrench.tail<3>())));
-            return Vector6d(-machine.T_P.transpose() * moved);
-          });
+}
+
+/// Some moments are about another point than P.
+void addPoints(const Scenario& scenario, EffortCauses& out) {
+  using FromPoint = Vector3d (*)(const MachineTerms&);  // leads to P, in B
+  const std::pair<const char*, FromPoint> points[] = {
+      {"the platform's mass centre", [](const MachineTerms& machine) { return Vector3d(-machine.rho); }},
+      {"the base's origin", [](const MachineTerms& machine) { return Vector3d(machine.platform.c - machine.rho); }}};
+  const NamedCause named{CauseKind::reference_point, "", "platform"};
+  for (const auto& [words, to_P] : points) {
+    for (const bool forces : {true, false})
+      out.add(fmt::format("the {} about {}, the {} about P", forces ? "legs' forces" : "Jacobian", words,
+                          forces ? "platform's" : "forces"),
+              named, [&scenario, to_P = to_P, forces](const MachineTerms& machine) {
+                const Arm arm = [&](std::size_t i) { return Vector3d(machine.legs[i].arm + to_P(machine)); };
+                return throughJacobian(machine, jacobianOf(scenario, machine, arm),
+                                       forces ? forceAtP(machine, arm) : machine.forceAtP(), machine.forceAtP());
+              });
+    out.add(fmt::format("the platform's forces about {} taken for such about P", words), named,
+            [to_P = to_P](const MachineTerms& machine) {
+              const Vector3d force = machine.platform_wrench.tail<3>();
+              return Vector6d(machine.T_P.transpose() * momentWrench(to_P(machine).cross(force)));
+            });
+  }
 }
 
 /// Efforts of a leg's coordinates where its tip moves otherwise at the same place.
@@ -283,6 +296,7 @@ void addClosures(const Scenario& scenario, EffortCauses& out) {
 std::vector<Cause> loopCauses(const Scenario& scenario) {
   EffortCauses out(scenario);
   addJacobians(scenario, out);
+  addPoints(scenario, out);
   addPointsNotTurned(scenario, out);
   addClosures(scenario, out);
   return std::move(out.causes);

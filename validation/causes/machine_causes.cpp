@@ -146,10 +146,14 @@ void addKnees(const Manipulator& machine, MachineCauses& out) {
 
 void addRotors(const Scenario& scenario, MachineCauses& out) {
   if (hasRotors(*scenario.manipulator))
-    out.addFixed({"the rotors' inertia left out", NamedCause{CauseKind::missing_term, "rotor_inertia", "all"}},
-                 [](Machine& machine) {
-                   for (Leg& leg : machine.legs) leg.rotor_inertia = {};
-                 });
+    for (const auto& [words, kind, times] :
+         {std::tuple("left out", CauseKind::missing_term, 1), {"with the wrong sign", CauseKind::sign, 2}})
+      out.addFixed(
+          {fmt::format("the rotors' inertia {}", words), NamedCause{kind, "rotor_inertia", "all"}},
+          [](Machine& machine) {
+            for (Leg& leg : machine.legs) leg.rotor_inertia = {};
+          },
+          times);
 }
 
 /// The unit of a tensor that is this many times too large; null if it is none.

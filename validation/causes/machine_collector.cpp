@@ -74,12 +74,16 @@ void MachineCauses::addTied(const TiedParameters& tied) {
   };
 }
 
-void MachineCauses::addFixed(const CauseName& name, const std::function<void(Machine&)>& change) {
+void MachineCauses::addFixed(const CauseName& name, const std::function<void(Machine&)>& change, double times) {
   const Scenario& scenario = scenario_;
-  causes.push_back(fixedCause(name, [&scenario, change](const std::vector<Motion<double>>& motions) {
+  causes.push_back(fixedCause(name, [&scenario, change, times](const std::vector<Motion<double>>& motions) {
     Machine machine = scenario.manipulator->parameters();
     change(machine);
-    return torquesOf(machine, scenario, motions);
+    Rows out = torquesOf(machine, scenario, motions);
+    if (times == 1) return out;
+    const Rows right = torquesOf(scenario.manipulator->parameters(), scenario, motions);
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] = right[k] + times * (out[k] - right[k]);
+    return out;
   }));
 }
 

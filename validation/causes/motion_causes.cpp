@@ -230,23 +230,31 @@ void addNotTurned(const Scenario& scenario, std::vector<Cause>& out) {
 
 void addLoads(const Scenario& scenario, std::vector<Cause>& out) {
   if (!scenario.load) return;
-  const auto add = [&](const CauseName& name, const std::function<void(Load&)>& change) {
-    const auto other = std::make_shared<Load>(*scenario.load);
-    change(*other);
-    out.push_back(fixedCause(name, [&scenario, other](const Motions& motions) {
-      const Subject noc = nocSubject(*scenario.manipulator, other);
+  const auto add = [&](const CauseName& name, const std::function<void(Load&, const Matrix3d& Q)>& change) {
+    out.push_back(fixedCause(name, [&scenario, change](const Motions& motions) {
       Rows torques;
-      for (const Motion<double>& motion : motions) torques.push_back(noc.torques(motion));
+      for (const Motion<double>& motion : motions) {
+        const auto other = std::make_shared<Load>(*scenario.load);
+        change(*other, motion.Q);
+        torques.push_back(nocSubject(*scenario.manipulator, other).torques(motion));
+      }
       return torques;
     }));
   };
   add({"the load taken in the other one's frame, of base and platform",
        NamedCause{CauseKind::frame, "load", "platform"}},
-      [](Load& load) { load.frame = load.frame == Load::Frame::base ? Load::Frame::platform : Load::Frame::base; });
+      [](Load& load, const Matrix3d& /*Q*/) {
+        load.frame = load.frame == Load::Frame::base ? Load::Frame::platform : Load::Frame::base;
+      });
   const Vector3d rho = scenario.manipulator->platform().center_of_mass;
   for (const auto& [where, point] : {std::pair("P", Vector3d::Zero().eval()), {"the platform's mass centre", rho}})
     add({std::string("the load taken to act at ") + where, NamedCause{CauseKind::reference_point, "load", "platform"}},
-        [point = point](Load& load) { load.point = point; });
+        [point = point](Load& load, const Matrix3d& /*Q*/) { load.point = point; });
+  for (const auto& [way, times] : {std::pair("not turned into the base's frame", 1), {"turned the wrong way", 2}})
+    add({std::string("the point where the load acts ") + way, NamedCause{CauseKind::frame, "load", "platform"}},
+        [times = times](Load& load, const Matrix3d& Q) {
+          for (int k = 0; k < times; ++k) load.point = (Q.transpose() * load.point).eval();
+        });
 }
 
 }  // namespace

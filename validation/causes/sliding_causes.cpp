@@ -48,12 +48,13 @@ Vector6d measuredAlongTheOther(const Scenario& scenario, const MachineTerms& mac
 void addCoriolis(EffortCauses& out) {
   const std::tuple<double, CauseKind, const char*> mistakes[] = {{1, CauseKind::missing_term, "left out of"},
                                                                  {0.5, CauseKind::missing_term, "halved in"},
+                                                                 {-1, CauseKind::scale, "doubled in"},
                                                                  {2, CauseKind::sign, "with the wrong sign in"}};
   for (const auto& [share, kind, words] : mistakes)
     for (const bool rods : {true, false})
       out.add(fmt::format("the Coriolis acceleration {} the joints' accelerations{}", words,
                           rods ? " and the rods'" : " alone"),
-              {kind, "coriolis", "legs"}, [share = share, rods](const MachineTerms& machine) {
+              {kind, "coriolis", "legs", "", "", 1, 1 - share}, [share = share, rods](const MachineTerms& machine) {
                 Vector6d change = machine.ofAccelerations([](const OpenLeg& leg) { return leg.coriolis; });
                 for (std::size_t i = 0; rods && i < machine.legs.size(); ++i) {
                   const BodyTerms& rod = machine.distal[i];

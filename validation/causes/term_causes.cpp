@@ -123,9 +123,9 @@ class Collector : public EffortCauses {
  public:
   using EffortCauses::EffortCauses;
 
-  /// Adds a part of the wrenches of each group, omitted or with the wrong sign.
+  /// Adds a part of the wrenches of each group, omitted, doubled or with the wrong sign.
   void addPart(const std::string& what, const char* term, const Wrench& part, const char* only = "",
-               bool either_sign = true) {
+               bool may_be_other = true) {
     for (const Group& group : groups) {
       if (*only != 0 && group.body != std::string(only)) continue;
       const auto times = [group, part](double factor) {
@@ -134,8 +134,9 @@ class Collector : public EffortCauses {
         };
       };
       add(what + " of " + group.words + " left out", {CauseKind::missing_term, term, group.body}, times(-1));
-      if (either_sign)
-        add(what + " of " + group.words + " with the wrong sign", {CauseKind::sign, term, group.body}, times(-2));
+      if (!may_be_other) continue;
+      add(what + " of " + group.words + " with the wrong sign", {CauseKind::sign, term, group.body}, times(-2));
+      add(what + " of " + group.words + " doubled", {CauseKind::scale, term, group.body, "", "", 1, 2}, times(1));
     }
   }
 
