@@ -59,7 +59,7 @@ void addCheck(CLI::App& app, std::function<int()>& run) {
   verb->add_option("scenarios", options->scenarios, "Scenario files (TOML), - for standard input")->required();
   verb->add_option("--picture", options->picture,
                    "Draws the machine at the start of the motion, even if it is out of reach: SVG or PNG file; - for "
-                   "standard output, as SVG");
+                   "standard output, as SVG. PNG needs rsvg-convert, of Debian's librsvg2-bin");
   verb->callback([options, &run] { run = [options] { return check(*options); }; });
 }
 

@@ -72,7 +72,8 @@ void addMap(CLI::App& app, std::function<int()>& run) {
       ->capture_default_str();
   verb->add_option("--out", options->out, "CSV file; - for standard output, the default without --picture");
   verb->add_option("--picture", options->picture,
-                   "Heat maps of every quantity: SVG or PNG file; - for standard output, as SVG");
+                   "Heat maps of every quantity: SVG or PNG file; - for standard output, as SVG. PNG needs "
+                   "rsvg-convert, of Debian's librsvg2-bin");
   addRowOptions(*verb, options->format, options->jobs);
   verb->footer(
       "Each of --x to --yaw takes FROM,TO,COUNT, or one value. Two or three of them vary; by default x, y and z vary\n"

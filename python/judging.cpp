@@ -65,8 +65,7 @@ std::optional<double> shareOf(const char* name, const Share& given) {
   const auto number = py::reinterpret_steal<py::object>(PyFloat_FromString(digits.ptr()));
   if (number) return number.cast<double>() / (is_percent ? 100 : 1);
   PyErr_Clear();
-  throw py::type_error(std::string("validate: ") + name + " is '" + text +
-                       "' of type str, expected a number, a share such as '0.1%', or None");
+  throw py::value_error(std::string(name) + " is '" + text + "', expected a number or a share such as '0.1%'");
 }
 
 /// Returns the scenario with the given tolerance, if any.

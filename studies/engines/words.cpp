@@ -132,7 +132,10 @@ std::string sentence(const SideBySide& found) {
 }
 
 std::string sentenceOfMissing(const LoopEngineKind& kind) {
-  return fmt::format("{} is not in this build: it needs Debian's {}.", kind.name, kind.package);
+  return fmt::format(
+      "{0} is not in this build, which was made without Debian's {1}. To have it: apt install {1}, then in the clone "
+      "cmake build and ./dev build.",
+      kind.name, kind.package);
 }
 
 std::string sideBySideText(const SideBySide& found) {

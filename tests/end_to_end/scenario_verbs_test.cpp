@@ -91,6 +91,8 @@ TEST(CheckVerb, drawsAPngWhereTheNameEndsSo) {
   EXPECT_EQ(without.exit_code, 2);
   EXPECT_THAT(without.err, HasSubstr("librsvg2-bin"));
   EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "a.png"), "kept");
+  for (const char* verb : {"check", "map"})
+    EXPECT_THAT(ursula(std::string(verb) + " --help").out, HasSubstr("librsvg2-bin"));
 }
 
 TEST(CheckVerb, exitsWithTwoForErrorsOfAnyScenarioAndNamesThemAll) {

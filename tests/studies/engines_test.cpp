@@ -286,7 +286,7 @@ TEST(Engines, sayWhatIsMissingOrRefused) {
   for (const LoopEngineKind& kind : loopEngines())
     if (*kind.package != '\0') {
       EXPECT_THAT(sentenceOfMissing(kind), HasSubstr(kind.name));
-      EXPECT_THAT(sentenceOfMissing(kind), HasSubstr(kind.package));
+      EXPECT_THAT(sentenceOfMissing(kind), HasSubstr("apt install " + std::string(kind.package)));
     }
   SideBySide found = foundIn(shipped("hexaglide"));
   found.engines.resize(1);
