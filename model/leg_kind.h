@@ -20,8 +20,12 @@ constexpr const char* nameOf(Coordinate coordinate) {
   return names[static_cast<std::size_t>(coordinate)];
 }
 
-/// The properties of a kind of leg that need no geometry; model/legs/ has the others. CONTRIBUTING.md explains how to
-/// add a kind.
+/// What a kind of leg says of itself beyond its row; each kind has it in its file, model/legs/KIND.cpp.
+class LegType;
+using LegTypeOfKind = const LegType&();
+LegTypeOfKind ursLeg, upsLeg, rusLeg, pusLeg;
+
+/// The properties of a kind of leg that are needed without its file. CONTRIBUTING.md explains how to add a kind.
 struct LegKindRow {
   const char* name;
   const char* words;                      ///< "telescopic"
@@ -30,6 +34,7 @@ struct LegKindRow {
   int joints_of_proximal;                 ///< number of coordinates before the proximal link
   std::size_t actuated;                   ///< index of the coordinate that a motor drives by default
   const char* knee;  ///< the expression whose sign `knee` selects, "sin theta"; null if there is one branch
+  LegTypeOfKind* type;
 
   /// Whether the proximal link is a carriage: it slides along the base axis, never turns, and has no length.
   constexpr bool hasCarriage() const { return slides(coordinates[0]); }
@@ -45,28 +50,32 @@ inline constexpr std::array leg_kinds = {
                {Coordinate::phi, Coordinate::psi, Coordinate::theta},
                2,
                0,
-               "sin theta"},
+               "sin theta",
+               ursLeg},
     LegKindRow{"UPS",
                "telescopic",
                "universal joint, cylinder and rod, ball",
                {Coordinate::phi, Coordinate::psi, Coordinate::d},
                2,
                2,
-               nullptr},
+               nullptr,
+               upsLeg},
     LegKindRow{"RUS",
                "crank and rod",
                "pin, universal joint, ball",
                {Coordinate::phi, Coordinate::psi, Coordinate::theta},
                1,
                0,
-               "sin psi"},
+               "sin psi",
+               rusLeg},
     LegKindRow{"PUS",
                "carriage and rod",
                "slide, universal joint, ball",
                {Coordinate::d, Coordinate::psi, Coordinate::theta},
                1,
                0,
-               "cos theta"},
+               "cos theta",
+               pusLeg},
 };
 constexpr std::size_t leg_kind_count = leg_kinds.size();
 

@@ -89,6 +89,8 @@ def check_engines(root, path):
         via = " -> ".join(chain)
         if path.startswith("nocsolver/") and (ENGINE_HEADER.search(name) or OTHER_ROAD.match(name)):
             findings.append(f"{path}: the solver may not see another engine ({via})")
+        if path.startswith("nocsolver/") and name.startswith("model/legs/"):
+            findings.append(f"{path}: the solver may not see the engines' geometry ({via})")
         if OTHER_ROAD.match(path) and name.startswith("nocsolver/"):
             findings.append(f"{path}: a engine may not see the solver ({via})")
         if OTHER_ROAD.match(path) and OTHER_ROAD.match(name) and OTHER_ROAD.match(path)[1] != OTHER_ROAD.match(name)[1]:

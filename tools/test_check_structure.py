@@ -87,6 +87,7 @@ class CheckStructure(unittest.TestCase):
         self.assert_caught("the solver may not see another engine", nocsolver__leg_DOT_cpp=append('#include "engines/simbody/simbody_loop.h"\n'))
         self.assert_caught("leg.h -> model/machine.h -> engines/simbody/simbody_loop.h",
                            model__machine_DOT_h=append('#include "engines/simbody/simbody_loop.h"\n'))
+        self.assert_caught("the solver may not see the engines' geometry", nocsolver__leg_DOT_cpp=append('#include "model/legs/leg.h"\n'))
         self.assert_caught("may not see the solver", engines__simbody__simbody_loop_DOT_cpp=append('#include "nocsolver/leg.h"\n'))
         self.assert_caught("the solver may not see another engine", nocsolver__leg_DOT_cpp=append("#include <mujoco/mujoco.h>\n"))
         self.assert_caught("a engine may not see another",

@@ -104,7 +104,7 @@ std::shared_ptr<const Trajectory> readToy(const TomlSection& table) {
             ('    TrajectoryKind{"hold"', '    TrajectoryKind{"toy", "the toy", nullptr, toyKeys, readToy},\n')]})
 
 ENGINE = Toy(
-    new={"engines/toy/toy_calls.cpp": """#include "engines/leg_chain.h"
+    new={"engines/toy/toy_calls.cpp": """#include "engines/leg_motion.h"
 #include "engines/loop_engine.h"
 
 namespace ursula {
@@ -121,7 +121,7 @@ class ToyCalls : public LoopEngine {
       const LegState state = legState(chainOf(leg), leg, i, motion, bias == Bias::kept);
       const Vector3d arm = motion.Q * leg.platform_point;
       OpenTree::Leg& out = tree_.legs[static_cast<std::size_t>(i)];
-      out.J = state.J;
+      out.J = state.at.J;
       out.P << 0, arm.z(), -arm.y(), 1, 0, 0, -arm.z(), 0, arm.x(), 0, 1, 0, arm.y(), -arm.x(), 0, 0, 0, 1;
     }
     return tree_;
@@ -148,7 +148,6 @@ std::unique_ptr<LoopEngine> makeToyCalls(const Manipulator& manipulator, std::sh
        "trees without mass", false},
 """)]})
 
-UPS_CASE, TOY_CASE = "    case LegKind::UPS:\n", "    case LegKind::TOY:\n"
 
 # Another name for UPS, so that it needs no mechanics of its own.
 LEG_KIND = Toy(
@@ -212,30 +211,16 @@ Matrix3<S> massMatrix(Toy, const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
     edits={
         "model/leg_kind.h": [
             (" };\n\n/// The coordinates of a leg's joints", ", TOY"),
+            (";\n\n/// The properties of a kind of leg", ", toyLeg"),
             ("};\nconstexpr std::size_t leg_kind_count", """\
     LegKindRow{"TOY", "a toy", "universal joint, cylinder and rod, ball",
-               {Coordinate::phi, Coordinate::psi, Coordinate::d}, 2, 2, nullptr},
+               {Coordinate::phi, Coordinate::psi, Coordinate::d}, 2, 2, nullptr, toyLeg},
 """),
             ("    case LegKind::RUS:", "    case LegKind::TOY:\n      return f(std::integral_constant<LegKind, LegKind::TOY>());\n")],
-        "model/CMakeLists.txt": [("  legs/ups.cpp\n", "  legs/toy.cpp\n")],
-        "model/legs/leg_type.h": [("const LegType& rusLeg();", "const LegType& toyLeg();\n")],
-        "model/legs/leg_type.cpp": [("};  // in the order of LegKind", ", toyLeg")],
+        "model/CMakeLists.txt": [(")  # as in leg_kind.h", " TOY")],
         "nocsolver/legs/leg_of.h": [('#include "nocsolver/legs/ups.h"', '#include "nocsolver/legs/toy.h"\n')],
         "nocsolver/fast/kernels/leg_kernels.h": [('#include "nocsolver/fast/kernels/ups_kernel.h"',
-                                                  '#include "nocsolver/fast/kernels/toy_kernel.h"\n')],
-        "engines/leg_chain.cpp": [(UPS_CASE + "      out << turn", TOY_CASE), (UPS_CASE + "      out.joints", TOY_CASE)],
-        "engines/maximal/maximal_loop_legs.cpp": [(UPS_CASE + "      return", TOY_CASE), (UPS_CASE + "      place", TOY_CASE)],
-        "engines/simbody/simbody_loop_legs.cpp": [
-            (UPS_CASE + "      addUniversalLeg", TOY_CASE), (UPS_CASE + "      return", TOY_CASE), (UPS_CASE + "      J <<", TOY_CASE)],
-        "engines/mujoco/mujoco_loop_legs.cpp": [
-            ("}};\n", """\
-    {R"(<joint axis="0 0 -1"/><joint axis="1 0 0"/>)", "1 0 0 0", R"(<joint type="slide" axis="0 0 1"/>)"},
-"""),
-            ("      case LegKind::UPS:", "      case LegKind::TOY:\n")],
-        "exchange/leg_pose.cpp": [("      case LegKind::UPS:", "      case LegKind::TOY:\n")],
-        "exchange/recognise/leg_numbers.cpp": [("      case LegKind::UPS:", "      case LegKind::TOY:\n")],
-        "studies/prove/defects_legs.cpp": [(UPS_CASE, TOY_CASE)],
-        "apps/CMakeLists.txt": [(")  # as in model/leg_kind.h", " TOY")]})
+                                                  '#include "nocsolver/fast/kernels/toy_kernel.h"\n')]})
 
 VERB = Toy(
     new={"apps/toy_verb.cpp": """#include "apps/verbs.h"

@@ -49,21 +49,21 @@ void BulletMachine::addLeg(const Leg& leg) {
   Matrix3d before = Matrix3d::Identity();
   Vector3d center_before = Vector3d::Zero();
   for (int j = 0; j < 3; ++j) {
-    const LegChain::Joint& joint = chain.joints[at(j)];
+    const Eigen::Isometry3d place = chain.place(j);
     Principal own{Matrix3d::Identity(), Vector3d::Zero()};
     Vector3d center = Vector3d::Zero();
     double mass = 0;
-    if (joint.body >= 0) {
-      own = principalOf(chain.links[at(joint.body)].inertia);
-      axes_.back()[at(joint.body)] = own.axes;
-      center = chain.centers[at(joint.body)];
-      mass = chain.links[at(joint.body)].mass;
+    if (const std::size_t link = at(chain.linkOf(j)); chain.movesLink(j)) {
+      own = principalOf(chain.links[link].inertia);
+      axes_.back()[link] = own.axes;
+      center = chain.centers[link];
+      mass = chain.links[link].mass;
     }
-    const Matrix3d turn = own.axes.transpose() * joint.place.linear().transpose() * before;
-    const btVector3 pivot = toBullet(Vector3d(before.transpose() * (joint.place.translation() - center_before)));
+    const Matrix3d turn = own.axes.transpose() * place.linear().transpose() * before;
+    const btVector3 pivot = toBullet(Vector3d(before.transpose() * (place.translation() - center_before)));
     const btVector3 arm = toBullet(Vector3d(own.axes.transpose() * center));
-    const btVector3 axis = toBullet(Vector3d(own.axes.transpose() * joint.axis));
-    if (joint.slides)
+    const btVector3 axis = toBullet(Vector3d(own.axes.transpose() * chain.joint(j).axis));
+    if (chain.slides(j))
       body.setupPrismatic(j, mass, toBullet(own.moments), j - 1, toBullet(turn), axis, pivot, arm, true);
     else
       body.setupRevolute(j, mass, toBullet(own.moments), j - 1, toBullet(turn), axis, pivot, arm, true);

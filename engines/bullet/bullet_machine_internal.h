@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include "engines/leg_chain.h"
+#include "engines/leg_motion.h"
 #include "engines/loop_engine.h"
 
 namespace ursula::bullet_engine {

@@ -12,7 +12,7 @@
 
 #include "engines/dart/dart_machine_internal.h"
 #include "engines/engine_module.h"
-#include "engines/leg_chain.h"
+#include "engines/leg_motion.h"
 #include "engines/loop_engine.h"
 
 namespace ursula {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engines/dart/dart_machine_internal.h"
-#include "engines/leg_chain.h"
+#include "engines/leg_motion.h"
 
 namespace ursula::dart_engine {
 namespace {
@@ -45,19 +45,18 @@ dd::UniversalJoint::Properties universal(const Vector3d& first, const Vector3d& 
 }
 
 /// Adds a leg's body behind its one or two joints; two make a universal joint.
-dd::BodyNode* addBody(const dd::SkeletonPtr& skeleton, dd::BodyNode* parent, const LegChain& chain, std::size_t body,
+dd::BodyNode* addBody(const dd::SkeletonPtr& skeleton, dd::BodyNode* parent, const LegChain& chain, int link,
                       const std::string& name) {
-  const auto properties = bodyOf(name, chain.links[body], chain.centers[body]);
-  std::vector<LegChain::Joint> joints;
-  for (std::size_t j = 0; j < 3; ++j)
-    if (chain.bodyOf(j) == body) joints.push_back(chain.joints[j]);
-  const LegChain::Joint& first = joints.front();
-  if (joints.size() == 2)
-    return add<dd::UniversalJoint>(skeleton, parent, universal(first.axis, joints.back().axis), first.place,
-                                   properties);
-  if (first.slides)
-    return add<dd::PrismaticJoint>(skeleton, parent, about<dd::PrismaticJoint>(first.axis), first.place, properties);
-  return add<dd::RevoluteJoint>(skeleton, parent, about<dd::RevoluteJoint>(first.axis), first.place, properties);
+  const auto at = static_cast<std::size_t>(link);
+  const auto properties = bodyOf(name, chain.links[at], chain.centers[at]);
+  const int first = chain.firstOf(link);
+  const Vector3d& axis = chain.joint(first).axis;
+  const Eigen::Isometry3d place = chain.place(first);
+  if (chain.jointsOf(link) == 2)
+    return add<dd::UniversalJoint>(skeleton, parent, universal(axis, chain.joint(first + 1).axis), place, properties);
+  if (chain.slides(first))
+    return add<dd::PrismaticJoint>(skeleton, parent, about<dd::PrismaticJoint>(axis), place, properties);
+  return add<dd::RevoluteJoint>(skeleton, parent, about<dd::RevoluteJoint>(axis), place, properties);
 }
 
 Eigen::Isometry3d placeOf(const Matrix3d& R, const Vector3d& at) {
@@ -110,7 +109,7 @@ void DartMachine::move(const Motion<double>& motion, bool with_bias) {
     };
     const Vector3d& b = from.platform_point;
     const Vector3d B = motion.p + motion.Q * b;
-    Vector3d q = legCoordinates(from, static_cast<int>(i), fixedFrame(from).transpose() * (B - from.base_point));
+    Vector3d q = legCoordinates(from, static_cast<int>(i), fixedFrame(from.base_axis), motion);
     const auto J = [&leg = legs[i]] { return Matrix3d(leg.distal->getLinearJacobian(leg.tip, dd::Frame::World())); };
     for (int step = 0; step < newton_steps; ++step) {
       set(q, &dd::Joint::setPosition);

@@ -213,8 +213,7 @@ void MaximalLoop::subtractFriction(int index, VectorX& w) const {
   const PlacedLeg& leg = legs_[at(index)];
   const Vector3d on = frictionOf(index);
   VectorX given = VectorX::Zero(coordinates());
-  if (manipulator_.leg(index).kind ==
-      LegKind::URS) {  // ψ and θ turn about one axis, and the proximal link carries the remainder
+  if (leg.joints[1].type == Joint::Type::revolute) {  // ψ and θ turn about one axis
     addForce(bodies_, leg.joints[0], 0, on(0), given);
     addForce(bodies_, leg.joints[0], 1, on(1) - on(2), given);
     given.segment<3>(6 * leg.joints[1].child) = on(2) * leg.joints[1].axes[0];

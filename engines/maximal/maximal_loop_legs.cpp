@@ -1,4 +1,5 @@
-// Places the links of a leg, of each kind, at a pose of the platform.
+// Places the links of a leg at a pose of the platform. The formulas are this engine's own: it shares no description of
+// the legs' joints with the others, so an error there cannot hide here.
 
 #include <fmt/format.h>
 
@@ -51,7 +52,7 @@ Matrix3d fixedFrame(const Vector3d& u) {
 }
 
 /// Finds the knee from the law of cosines at A, on the side that the knee's sign selects.
-void placeUrs(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
+void placeKneed(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
   const double l = leg.proximal.length, s = leg.distal.length;
   const double q = ends.AB.norm();
   const double cosine = (l * l + q * q - s * s) / (2 * l * q);
@@ -70,7 +71,7 @@ void placeUrs(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& 
 }
 
 /// Both links lie on the line AB; the rod's inner end is within the cylinder.
-void placeUps(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
+void placeTelescope(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
   const double l = leg.proximal.length, s = leg.distal.length;
   const double d = ends.AB.norm();
   requireReach(s < d && d < s + l, index, d, t);
@@ -85,7 +86,7 @@ void placeUps(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& 
 
 /// R is where the crank's circle meets the sphere of radius s about B. That sphere intersects the circle's plane in a
 /// circle.
-void placeRus(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
+void placeCrank(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
   const double l = leg.proximal.length, s = leg.distal.length;
   const Split B(ends);
   requireReach(std::abs(B.along) < s, index, std::abs(B.along), t);
@@ -107,7 +108,7 @@ void placeRus(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& 
 }
 
 /// The carriage is where the rail meets the sphere of radius s about B; with a positive knee it is behind B.
-void placePus(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
+void placeCarriage(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
   const double s = leg.distal.length;
   const Split B(ends);
   requireReach(B.distance <= s, index, B.distance, t);
@@ -124,19 +125,10 @@ void placePus(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& 
   out.joints[1].point = carriage;
 }
 
-std::array<Joint::Type, 2> jointsOf(LegKind kind) {
+Joint::Type jointOf(const LegKindRow& row, int link) {
   using Type = Joint::Type;
-  switch (kind) {
-    case LegKind::URS:
-      return {Type::universal, Type::revolute};
-    case LegKind::UPS:
-      return {Type::universal, Type::prismatic};
-    case LegKind::RUS:
-      return {Type::revolute, Type::universal};
-    case LegKind::PUS:
-      break;
-  }
-  return {Type::prismatic, Type::universal};
+  if ((link == 0) == (row.joints_of_proximal == 2)) return Type::universal;
+  return slides(row.coordinates[link == 0 ? 0 : 2]) ? Type::prismatic : Type::revolute;
 }
 
 /// Moves mass centres off the links' lines.
@@ -152,25 +144,15 @@ PlacedLeg placeLeg(const Leg& leg, int index, int first, int second, const Motio
   const Ends ends = {leg.base_axis.normalized(), leg.base_point, B, B - leg.base_point};
   PlacedLeg out;
   out.B = B;
-  const auto types = jointsOf(leg.kind);
-  out.joints[0].type = types[0], out.joints[1].type = types[1];
+  const LegKindRow& row = rowOf(leg.kind);
+  for (int link = 0; link < 2; ++link) out.joints[static_cast<std::size_t>(link)].type = jointOf(row, link);
   out.joints[0].child = out.joints[1].parent = first;
   out.joints[1].child = second;
   out.joints[0].point = ends.A;
-  switch (leg.kind) {
-    case LegKind::URS:
-      placeUrs(leg, index, ends, motion.t, out);
-      break;
-    case LegKind::UPS:
-      placeUps(leg, index, ends, motion.t, out);
-      break;
-    case LegKind::RUS:
-      placeRus(leg, index, ends, motion.t, out);
-      break;
-    case LegKind::PUS:
-      placePus(leg, index, ends, motion.t, out);
-      break;
-  }
+  if (row.joints_of_proximal == 2)
+    (row.isTelescopic() ? placeTelescope : placeKneed)(leg, index, ends, motion.t, out);
+  else
+    (row.hasCarriage() ? placeCarriage : placeCrank)(leg, index, ends, motion.t, out);
   moveCenters(leg, out);
   return out;
 }

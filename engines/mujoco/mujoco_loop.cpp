@@ -18,12 +18,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engines/leg_motion.h"
 #include "engines/mujoco/mujoco_loop_internal.h"
 
 namespace ursula {
 namespace {
 
-using mujoco::dofOf, mujoco::joints_per_leg, mujoco::siteOnLeg, mujoco::siteOnPlatform;
+using mujoco::dofOf, mujoco::siteOnLeg, mujoco::siteOnPlatform;
 
 using mujoco::GapJacobian, mujoco::VectorOfGaps, mujoco::VectorOfDofs;
 using mujoco::most_dofs, mujoco::most_gaps;
@@ -34,20 +35,6 @@ Vector3d centroidOfBase(const Manipulator& manipulator) {
   Vector3d sum = Vector3d::Zero();
   for (const Leg& leg : manipulator.parameters().legs) sum += leg.base_point;
   return sum / manipulator.legCount();
-}
-
-double friction(double viscous, double coulomb, double speed, double rate) {
-  return -viscous * rate - coulomb * std::tanh(rate / speed);
-}
-
-Vector3d frictionOf(const Leg& leg, const Vector3d& rates) {
-  Vector3d out;
-  for (int joint = 0; joint < joints_per_leg; ++joint) {
-    const Coordinate coordinate = rowOf(leg.kind).coordinates[static_cast<std::size_t>(joint)];
-    out(joint) = friction(leg.friction.on(coordinate), leg.coulomb.on(coordinate), leg.coulomb.speedOf(coordinate),
-                          rates(joint));
-  }
-  return out;
 }
 
 }  // namespace
@@ -69,7 +56,8 @@ MujocoLoop::Impl::Impl(const Manipulator& from, std::shared_ptr<const Load> on_p
 
 void MujocoLoop::Impl::place(const Motion<double>& motion) {
   for (int leg = 0; leg < legs; ++leg)
-    Eigen::Map<Vector3d>(data->qpos + dofOf(leg, 0)) = mujoco::coordinatesOf(manipulator.leg(leg), leg, motion);
+    Eigen::Map<Vector3d>(data->qpos + dofOf(leg, 0)) =
+        legCoordinates(manipulator.leg(leg), leg, mujoco::frameOf(manipulator.leg(leg)), motion);
   const Eigen::Quaterniond Q(motion.Q);
   Eigen::Map<Vector3d>(data->qpos + leg_dofs) = (motion.p - origin) + motion.Q * manipulator.platform().center_of_mass;
   Eigen::Map<Eigen::Vector4d>(data->qpos + leg_dofs + 3) << Q.w(), Q.x(), Q.y(), Q.z();
@@ -138,7 +126,7 @@ VectorOfDofs MujocoLoop::Impl::given(const mjModel& in_model, mjData& in_data, c
   VectorOfDofs forces = VectorOfDofs::Zero(dofs);
   for (int leg = 0; leg < legs; ++leg)
     forces.segment<3>(dofOf(leg, 0)) =
-        frictionOf(manipulator.leg(leg), Eigen::Map<const Vector3d>(in_data.qvel + dofOf(leg, 0)));
+        frictionOn(manipulator.leg(leg), Eigen::Map<const Vector3d>(in_data.qvel + dofOf(leg, 0)));
   if (load) {
     const Wrench<double> wrench = load->at(motion.t);
     const bool in_platform = load->frame == Load::Frame::platform;

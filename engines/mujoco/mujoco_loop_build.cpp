@@ -1,7 +1,6 @@
 // Builds the machine in MuJoCo. A text describes its structure. All numbers are then overwritten in binary, because
-// decimal digits and MuJoCo's compiler would round them. The links' body frames are [x, axis × x, axis], a carriage's
-// is [x̂, û, ẑ]. Origins are at the links' first ends; for a rod in a cylinder that is the inner end, which slides from
-// A.
+// decimal digits and MuJoCo's compiler would round them. The links' body frames are those of LegChain, except for the
+// origin of a rod in a cylinder.
 
 #include <fmt/format.h>
 
@@ -35,16 +34,29 @@ struct Structure {
   }
 };
 
+/// A link's joints, in the axes of its body.
+std::string jointsOf(const LegChain& chain, int link) {
+  std::string out;
+  for (int j = chain.firstOf(link); j < chain.firstOf(link) + chain.jointsOf(link); ++j) {
+    const Vector3d& axis = chain.joint(j).axis;
+    out += fmt::format(R"(<joint type="{}" axis="{} {} {}"/>)", chain.slides(j) ? "slide" : "hinge", axis.x(), axis.y(),
+                       axis.z());
+  }
+  return out;
+}
+
 /// The inertial numbers are placeholders that get overwritten.
 std::string describe(const Structure& structure) {
   const std::vector<LegKind>& kinds = structure.kinds;
   const std::string inertial = R"(<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>)";
   std::string text = R"(<mujoco><worldbody>)";
   for (std::size_t leg = 0; leg < kinds.size(); ++leg) {
-    const KindText& kind = textOf(kinds[leg]);
-    text += fmt::format(R"(<body name="proximal{0}">{1}{2}<body name="distal{0}" quat="{3}">{1}{4})"
+    Leg of_kind;
+    of_kind.kind = kinds[leg];
+    const LegChain chain = chainOf(of_kind);
+    text += fmt::format(R"(<body name="proximal{0}">{1}{2}<body name="distal{0}">{1}{3})"
                         R"(<site name="leg{0}"/></body></body>)",
-                        leg, inertial, kind.on_proximal, kind.quaternion, kind.on_distal);
+                        leg, inertial, jointsOf(chain, 0), jointsOf(chain, 1));
   }
   text += fmt::format(R"(<body name="platform"><freejoint/>{})", inertial);
   for (std::size_t leg = 0; leg < kinds.size(); ++leg) text += fmt::format(R"(<site name="platform{}"/>)", leg);
@@ -131,21 +143,19 @@ void writeInertia(mjModel& model, int body, double mass, const Vector3d& center,
   write(principal.eigenvalues(), model.body_inertia, body);
 }
 
+/// A body that slides has its origin where it is at zero: for a rod in a cylinder that is its tip.
 void writeLeg(mjModel& model, int index, const Leg& leg, const Vector3d& origin) {
-  const int proximal = proximalBody(index), distal = distalBody(index);
-  const bool telescopic = rowOf(leg.kind).isTelescopic(), carriage = rowOf(leg.kind).hasCarriage();
-  // The distal link's origin in the proximal link at coordinates zero, and how far the link extends behind its origin.
-  const double joined_at = telescopic || carriage ? 0 : leg.proximal.length;
-  const double behind = telescopic ? leg.distal.length : 0;
+  const LegChain chain = chainOf(leg, frameOf(leg));
+  const int proximal = proximalBody(index), distal = distalBody(index), second = chain.firstOf(1);
+  const LegJoint& joint_of_distal = chain.joint(second);
+  const Vector3d shift = chain.slides(second) ? joint_of_distal.at : Vector3d(Vector3d::Zero());
   write(leg.base_point - origin, model.body_pos, proximal);
-  write(Eigen::Quaterniond(frameAtZero(leg)).normalized(), model.body_quat, proximal);
-  write(Vector3d(0, 0, joined_at), model.body_pos, distal);
-  if (carriage)  // set again, because MuJoCo rounded the digits in the text
-    write(Eigen::Quaterniond(1, -1, 0, 0).normalized(), model.body_quat, distal);
-  write(Vector3d(0, 0, leg.distal.length - behind), model.site_pos, siteOnLeg(index));
-  writeInertia(model, proximal, leg.proximal.mass, leg.proximalCenter(), leg.proximal.inertia);
-  writeInertia(model, distal, leg.distal.mass, leg.distal.off_line + Vector3d(0, 0, leg.distal.center_of_mass - behind),
-               leg.distal.inertia);
+  write(Eigen::Quaterniond(chain.place(0).linear()).normalized(), model.body_quat, proximal);
+  write(Vector3d(joint_of_distal.at - shift), model.body_pos, distal);
+  write(joint_of_distal.turn.normalized(), model.body_quat, distal);
+  write(Vector3d(chain.tip + shift), model.site_pos, siteOnLeg(index));
+  writeInertia(model, proximal, leg.proximal.mass, chain.centers[0], leg.proximal.inertia);
+  writeInertia(model, distal, leg.distal.mass, chain.centers[1] + shift, leg.distal.inertia);
   for (int joint = 0; joint < joints_per_leg; ++joint)
     model.dof_armature[dofOf(index, joint)] =
         leg.rotor_inertia.on(rowOf(leg.kind).coordinates[static_cast<std::size_t>(joint)]);
@@ -167,6 +177,14 @@ void connect(mjModel& model, int legs) {
 }
 
 }  // namespace
+
+Matrix3d frameOf(const Leg& leg) {
+  if (rowOf(leg.kind).joints_of_proximal != 2) return fixedFrame(leg.base_axis);
+  const Vector3d u = leg.base_axis.normalized(), x = u.unitOrthogonal();
+  Matrix3d frame;
+  frame << x, u, x.cross(u);
+  return frame;
+}
 
 Model buildModel(const Manipulator& manipulator, const Vector3d& origin, Closure closure) {
   const int legs = manipulator.legCount();

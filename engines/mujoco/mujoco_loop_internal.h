@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "engines/mujoco/mujoco_loop.h"
-#include "model/manipulator.h"
+#include "model/legs/leg_chain.h"
 
 namespace ursula::mujoco {
 
@@ -30,25 +30,12 @@ constexpr int siteOnLeg(int leg) { return leg; }
 constexpr int siteOnPlatform(int legs, int leg) { return legs + leg; }
 constexpr int dofOf(int leg, int joint) { return joints_per_leg * leg + joint; }
 
-/// The text for a kind of leg: its joints, and the distal link's rotation in the proximal one at coordinates zero.
-struct KindText {
-  const char* on_proximal;
-  const char* quaternion;  ///< rotation of the distal link
-  const char* on_distal;
-};
-
-const KindText& textOf(LegKind kind);
-
-/// The frame of the proximal link at coordinates zero. With a universal joint at the base its columns are x, e × x, e,
-/// where e = u and x is any perpendicular. Otherwise it is the kind's fixed frame [x̂, û, ẑ].
-Matrix3d frameAtZero(const Leg& leg);
+/// The frame that MuJoCo's coordinates of a leg count from. With a universal joint at the base its first column is any
+/// perpendicular of the axis, otherwise it is the kind's fixed frame [x̂, û, ẑ].
+Matrix3d frameOf(const Leg& leg);
 
 /// MuJoCo's first coordinate of a leg minus φ.
 double offsetOfPhi(const Leg& leg);
-
-/// Returns a leg's coordinates at the motion's pose, by vector geometry. Throws std::domain_error if it cannot reach;
-/// the text has `index` + 1.
-Vector3d coordinatesOf(const Leg& leg, int index, const Motion<double>& motion);
 
 /// Whether MuJoCo's own constraints join each pair of sites.
 enum class Closure { open, connected };

@@ -15,8 +15,8 @@ double mujoco::offsetOfPhi(const Leg& leg) {
   if (rowOf(leg.kind).joints_of_proximal != 2) return 0;
   const Vector3d u = leg.base_axis.normalized(), level = u.cross(Vector3d::UnitZ());
   const Vector3d x = level.norm() < 1e-10 ? u.cross(Vector3d::UnitY()) : level;
-  const Matrix3d zero = mujoco::frameAtZero(leg);
-  return std::atan2(-x.dot(zero.col(1)), x.dot(zero.col(0)));
+  const Matrix3d frame = mujoco::frameOf(leg);
+  return std::atan2(-x.dot(u.cross(frame.col(0))), x.dot(frame.col(0)));
 }
 
 void MujocoLoop::coordinates(const Motion<double>& motion, const JointMotion& joint_motion,

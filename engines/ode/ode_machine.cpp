@@ -55,7 +55,7 @@ OdeMachine::OdeMachine(const Manipulator& from, const Motion<double>& motion, Lo
   for (int i = 0; loops == Loops::closed && i < from.legCount(); ++i) {
     const dJointID ball = dJointCreateBall(world_.get(), nullptr);
     dJointAttach(ball, bodies_[at(2 * i + 1)].id, platform().id);
-    const Vector3d& tip = states_[at(i)].tip;
+    const Vector3d& tip = states_[at(i)].at.tip;
     dJointSetBallAnchor(ball, tip.x(), tip.y(), tip.z());
   }
 }
@@ -84,23 +84,21 @@ void OdeMachine::setBody(const Body& body, const ChainBody& state) {
 /// Each link has one joint: a hinge or slider for one coordinate, a universal for two.
 void OdeMachine::addLeg(int index) {
   const LegChain& chain = chains_[at(index)];
-  const LegState& state = states_[at(index)];
+  const PlacedChain& placed = states_[at(index)].at;
   for (std::size_t b = 0; b < 2; ++b) {
-    std::vector<std::size_t> of;
-    for (std::size_t j = 0; j < 3; ++j)
-      if (chain.bodyOf(j) == b) of.push_back(j);
-    const Vector3d &first = state.axes[of.front()], &last = state.axes[of.back()], &c = state.anchors[of.front()];
+    const int link = static_cast<int>(b), j = chain.firstOf(link), count = chain.jointsOf(link);
+    const Vector3d &first = placed.axes[at(j)], &last = placed.axes[at(j + count - 1)], &c = placed.anchors[at(j)];
     const auto join = [&](dJointID joint) {
       dJointAttach(joint, bodies_[at(2 * index) + b].id, b == 0 ? nullptr : bodies_[at(2 * index)].id);
       dJointSetFeedback(joint, &feedback_[at(index)][b]);
       return joints_[at(index)][b] = joint;
     };
-    if (of.size() == 2) {
+    if (count == 2) {
       const dJointID joint = join(dJointCreateUniversal(world_.get(), nullptr));
       dJointSetUniversalAnchor(joint, c.x(), c.y(), c.z());
       dJointSetUniversalAxis1(joint, last.x(), last.y(), last.z());
       dJointSetUniversalAxis2(joint, first.x(), first.y(), first.z());
-    } else if (chain.joints[of[0]].slides) {
+    } else if (chain.slides(j)) {
       dJointSetSliderAxis(join(dJointCreateSlider(world_.get(), nullptr)), first.x(), first.y(), first.z());
     } else {
       const dJointID joint = join(dJointCreateHinge(world_.get(), nullptr));
@@ -131,9 +129,9 @@ void OdeMachine::goBack(double h) {
 
 OdeMachine::Place OdeMachine::placeOf(int leg, int j) const {
   const LegChain& chain = chains_[at(leg)];
-  const std::size_t b = chain.bodyOf(at(j));
+  const std::size_t b = at(chain.linkOf(j));
   const dJointID joint = joints_[at(leg)][b];
-  return {joint, dJointGetType(joint), j > 0 && chain.bodyOf(at(j - 1)) == b, bodies_[at(2 * leg) + b].id,
+  return {joint, dJointGetType(joint), j > chain.firstOf(chain.linkOf(j)), bodies_[at(2 * leg) + b].id,
           b == 0 ? nullptr : bodies_[at(2 * leg)].id};
 }
 
@@ -190,12 +188,13 @@ void OdeMachine::addEffort(int leg, int j, double effort) {
 /// ODE's feedback is the joint's whole force on the child, and its moment about the child's mass centre.
 double OdeMachine::effort(int leg, int j) const {
   const LegState& state = states_[at(leg)];  // where the step began; ODE has moved since
-  const std::size_t b = chains_[at(leg)].bodyOf(at(j));
+  const std::size_t b = at(chains_[at(leg)].linkOf(j));
   const dJointFeedback& felt = feedback_[at(leg)][b];
   const Vector3d force = vectorOf(felt.f1), moment = vectorOf(felt.t1);
-  if (chains_[at(leg)].joints[at(j)].slides) return state.axes[at(j)].dot(force);
+  const Vector3d& axis = state.at.axes[at(j)];
+  if (chains_[at(leg)].slides(j)) return axis.dot(force);
   const Vector3d c = state.bodies[b].frame * bodies_[at(2 * leg) + b].center;
-  return state.axes[at(j)].dot(moment + (c - state.anchors[at(j)]).cross(force));
+  return axis.dot(moment + (c - state.at.anchors[at(j)]).cross(force));
 }
 
 Vector6d OdeMachine::loadAtCenter(const Load* load, double t) const {

@@ -33,7 +33,7 @@ void SimbodyLoop::Impl::setLeg(int leg, const std::array<double, 3>& q) {
 std::array<double, 3> SimbodyLoop::Impl::legGeometry(int leg, const Motion<double>& motion) const {
   const Leg& from = parameters.leg(leg);
   const Vector3d d = motion.p + motion.Q * from.platform_point - from.base_point;
-  if (const auto q = ursula::legGeometry(from, baseFrame(from.base_axis), d)) return *q;
+  if (const auto q = ursula::legGeometry(from, fixedFrame(from.base_axis), d)) return *q;
   throw std::domain_error(
       fmt::format("leg {} ({}) cannot reach at t = {} s: the distance is {} m, its links {} m and {} m", leg + 1,
                   rowOf(from.kind).name, motion.t, d.norm(), from.proximal.length, from.distal.length));

@@ -30,14 +30,14 @@ struct LegClosure {
 Vector3d centripetal(const Vector3d& omega, const Vector3d& arm) { return omega.cross(omega.cross(arm)); }
 
 LegClosure closureOf(const Mechanism& mechanism, const SimTK::State& state, std::size_t i, const Leg& leg,
-                     const SimTK::Vector_<SimTK::SpatialVec>& at_rest) {
+                     const LegChain& chain, const SimTK::Vector_<SimTK::SpatialVec>& at_rest) {
   const SimTK::MobilizedBody &first = mechanism.proximal[i], &second = mechanism.distal[i];
   const Vector3d A = toEigen(first.getInboardFrame(state).p()), R = toEigen(second.getBodyOriginLocation(state));
   const Vector3d to_B = leg.distal.length * toEigen(SimTK::Vec3(second.getBodyRotation(state).z()));
   const Vector3d from_A = R + to_B - A;
   const Vector3d arm = toEigen(mechanism.platform.getBodyRotation(state)) * leg.platform_point;
   LegClosure out;
-  out.J = legJacobian(leg, state, first, second, from_A, to_B);
+  out.J = legJacobian(chain, state, first, second, from_A, to_B);
   out.P.leftCols<3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
   out.P.rightCols<3>().setIdentity();
   const SimTK::SpatialVec& second_at_rest = at_rest[second.getMobilizedBodyIndex()];
@@ -68,7 +68,7 @@ void SimbodyLoop::Impl::eliminate(const Vector6d& torques) {
   for (int k = 0; k < 6; ++k) N(of_platform + k, k) = 1;
   for (int i = 0; i < legCount(); ++i) {
     const auto index = static_cast<std::size_t>(i);
-    const LegClosure leg = closureOf(mechanism, open, index, parameters.leg(i), at_rest);
+    const LegClosure leg = closureOf(mechanism, open, index, parameters.leg(i), chains[index], at_rest);
     leg_jacobians[index] = leg.J;
     const Eigen::PartialPivLU<Matrix3d> factors(leg.J);
     const Matrix36 rates = factors.solve(leg.P);        // (b)

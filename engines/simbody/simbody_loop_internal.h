@@ -12,6 +12,7 @@
 #include <Eigen/LU>
 
 #include "engines/simbody/simbody_loop.h"
+#include "model/legs/leg_chain.h"
 
 namespace ursula {
 
@@ -80,16 +81,13 @@ struct Mechanism {
 /// −c tanh(q̇ / speed), the smoothed Coulomb friction force on one of a leg's three joints.
 double coulombForce(const Leg& leg, int joint, double rate);
 
-/// Columns −u, x̂, ẑ; φ = 0 makes the plane of the leg vertical. For an axis along e_z, x̂ = u × e_y by convention.
-Matrix3d baseFrame(const Vector3d& axis);
-
-/// The joint coordinates of a leg for B at `d` from A, by vector geometry; nullopt if it cannot reach. `base` is
-/// baseFrame of its axis.
-std::optional<std::array<double, 3>> legGeometry(const Leg& leg, const Matrix3d& base, const Vector3d& d);
+/// The joint coordinates of a leg for B at `d` from A, by vector geometry; nullopt if it cannot reach. `frame` is
+/// fixedFrame of its axis.
+std::optional<std::array<double, 3>> legGeometry(const Leg& leg, const Matrix3d& frame, const Vector3d& d);
 
 /// Returns the velocity of B per unit rates of the leg's joints; axes are Simbody's. `first` and `second` are the leg's
 /// bodies, `from_A` and `to_B` lead to B from A and from the second body's origin, in B.
-Matrix3d legJacobian(const Leg& leg, const SimTK::State& state, const SimTK::MobilizedBody& first,
+Matrix3d legJacobian(const LegChain& chain, const SimTK::State& state, const SimTK::MobilizedBody& first,
                      const SimTK::MobilizedBody& second, const Vector3d& from_A, const Vector3d& to_B);
 
 /// Simbody undoes the shift to the body's origin again. Throws std::domain_error if rounding invalidates the result.
@@ -119,6 +117,7 @@ struct SimbodyLoop::Impl {
   std::vector<Matrix3d> leg_jacobians;  ///< velocities of Bᵢ by the leg's rates, at the last elimination
   OpenTreeScratch scratch;
   Manipulator parameters;
+  std::vector<LegChain> chains;  ///< the legs' joints
   Topology topology;
 
   int legCount() const { return parameters.legCount(); }
@@ -149,9 +148,7 @@ struct SimbodyLoop::Impl {
 
  private:
   void addLeg(int leg);
-  void addUniversalLeg(const Leg& from);  ///< URS and UPS
-  void addCrank(const Leg& from);         ///< RUS
-  void addCarriage(const Leg& from);      ///< PUS
+  SimTK::MobilizedBody addLink(const LegChain& chain, int link, SimTK::MobilizedBody& parent);
   void addPlatform();
   void addRotors();
   void addForces(std::shared_ptr<const Load> load);

@@ -8,6 +8,7 @@
 #include "base/scalar.h"
 #include "base/text.h"
 #include "exchange/import_error.h"
+#include "model/legs/leg_chain.h"
 
 namespace ursula::exchange {
 namespace {
@@ -44,20 +45,11 @@ class LegMaker {
     B_ = joints_.back().inner;
     proximal_ = sumOf(task_, shape_.proximal);
     distal_ = sumOf(task_, shape_.distal);
-    switch (shape_.kind) {
-      case LegKind::UPS:
-        makeUps();
-        break;
-      case LegKind::URS:
-        makeUrs();
-        break;
-      case LegKind::RUS:
-        makeRus();
-        break;
-      case LegKind::PUS:
-        makePus();
-        break;
-    }
+    const LegKindRow& row = rowOf(shape_.kind);
+    if (row.joints_of_proximal == 2)
+      row.isTelescopic() ? makeTelescope() : makeKneed();
+    else
+      row.hasCarriage() ? makeCarriage() : makeCrank();
     lumpCrosses(task_, A_, proximal_, distal_, platform_, assumptions_);
     makeLinks();
     leg_.base_point = task_.base.inverse() * base_point_;
@@ -98,7 +90,7 @@ class LegMaker {
     return (across.norm() > 0.1 ? across : line.cross(side)).normalized();
   }
 
-  void makeUps() {
+  void makeTelescope() {
     const bool ball = leg_.free_spin;
     // With a ball at the base, joints_ are S, P, S: the slide is second.
     const Primitive& slide = joints_[ball ? 1 : 2];
@@ -129,7 +121,7 @@ class LegMaker {
     distal_frame_ = placedAt(A_ + (d - s_) * e, frameOf(x, e));
   }
 
-  void makeUrs() {
+  void makeKneed() {
     A_ = commonPerpendicular(joints_[0].outer, joints_[0].axis, joints_[1].inner, joints_[1].axis).at;
     base_point_ = A_ + joints_[0].inner - joints_[0].outer;
     u_ = -joints_[0].axis;
@@ -149,7 +141,7 @@ class LegMaker {
     distal_frame_ = placedAt(R_outer, frameOf(x_of_leg, along));
   }
 
-  void makeRus() {
+  void makeCrank() {
     u_ = -joints_[0].axis;
     Vector3d C, C_outer;
     middleJoint(C, C_outer);
@@ -166,7 +158,7 @@ class LegMaker {
     distal_frame_ = placedAt(C_outer, frameOf(x_2, along));
   }
 
-  void makePus() {
+  void makeCarriage() {
     u_ = joints_[0].axis;
     Vector3d C, C_outer;
     middleJoint(C, C_outer);
@@ -262,15 +254,6 @@ class LegMaker {
 };
 
 }  // namespace
-
-Matrix3d fixedFrame(const Vector3d& u) {
-  Vector3d x = u.cross(Vector3d::UnitZ());
-  if (x.squaredNorm() < 1e-20) x = u.cross(Vector3d::UnitY());
-  x.normalize();
-  Matrix3d out;
-  out << x, u, x.cross(u);
-  return out;
-}
 
 ImportedLeg legOf(const LegTask& task, Group& platform, std::vector<Assumption>& assumptions) {
   assumptions.insert(assumptions.end(), task.shape.assumptions.begin(), task.shape.assumptions.end());

@@ -65,9 +65,6 @@ struct LegTask {
 /// lacks the geometry of its kind. Adds masses of crosses on the platform to `platform`.
 ImportedLeg legOf(const LegTask& task, Group& platform, std::vector<Assumption>& assumptions);
 
-/// F̂ = [x̂, û, ẑ] of docs/legs.md.
-Matrix3d fixedFrame(const Vector3d& u);
-
 /// Copies friction, motors and rotors to the coordinates of a leg. The scenario's coordinates grow about or along the
 /// axes `grows_along`, in the world; says where a motor's coordinate in the file grows the other way. Throws
 /// ImportError for a rotor without a motor.

@@ -68,17 +68,12 @@ Matrix6d driveMap(const ImportedMachine& machine, const ImportedPose& pose, doub
     const ImportedLeg& leg = machine.legs[i];
     const Vector3d arm = pose.orientation * leg.platform_point;
     const LegPose at = legPose(asLeg(leg), static_cast<int>(i), pose.position + arm);
-    Matrix3d J;  // velocity of the tip per unit rates of the leg's coordinates
-    for (int k = 0; k < 3; ++k) {
-      const JointAt& joint = at.joints[static_cast<std::size_t>(k)];
-      J.col(k) = slides(joint.coordinate) ? joint.axis : joint.axis.cross(Vector3d(at.tip - joint.centre));
-    }
     Eigen::Matrix<double, 3, 6> tip;
     for (int k = 0; k < 3; ++k) tip.col(k) = size * Vector3d::Unit(k), tip.col(3 + k) = Vector3d::Unit(k).cross(arm);
-    const Eigen::Matrix<double, 3, 6> rates = J.inverse() * tip;
+    const Eigen::Matrix<double, 3, 6> rates = at.at.J.inverse() * tip;
     for (int k = 0; k < 3; ++k)
       if (leg.actuated[static_cast<std::size_t>(k)] && row < 6)
-        out.row(row++) = rates.row(k) / (slides(at.joints[static_cast<std::size_t>(k)].coordinate) ? size : 1);
+        out.row(row++) = rates.row(k) / (at.chain.slides(k) ? size : 1);
   }
   return out;
 }
@@ -135,12 +130,13 @@ double within(double least, double value, double most) {
 
 double reserveOf(const ImportedLeg& leg, const ImportedPose& pose) {
   const LegKindRow& row = rowOf(leg.kind);
-  const Vector3d u = leg.base_axis, AB = pose.position + pose.orientation * leg.platform_point - leg.base_point;
-  const double along = AB.dot(u), across = (AB - along * u).norm();
-  const Reach reach = typeOf(leg.kind).reach(asLeg(leg), {AB.norm(), std::abs(along), across});
+  const Vector3d AB = pose.position + pose.orientation * leg.platform_point - leg.base_point;
+  const LegSpan span = spanOf(leg.base_axis, AB);
+  const Reach reach = typeOf(leg.kind).reach(asLeg(leg), span);
   const double own = within(reach.least, reach.distance, reach.most);
-  if (row.joints_of_proximal == 2) return std::min(own, across / (AB.norm() + across));  // distance from the first axis
-  return row.hasCarriage() ? own : std::min(own, 1 - std::abs(along) / leg.distal.length);
+  if (row.joints_of_proximal == 2)
+    return std::min(own, span.across / (span.distance + span.across));  // distance from the first axis
+  return row.hasCarriage() ? own : std::min(own, 1 - span.along / leg.distal.length);
 }
 
 void proposeMotion(ImportedMachine& machine, double size) {

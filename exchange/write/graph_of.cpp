@@ -55,29 +55,30 @@ class Builder {
 
   void addLeg(int index) {
     const Leg& leg = machine_.leg(index);
-    const LegPose at = legPose(leg, index, pose_.p + pose_.Q * leg.platform_point);
+    const Vector3d tip = pose_.p + pose_.Q * leg.platform_point;
+    const LegPose at = legPose(leg, index, tip);
     const std::string name = fmt::format("leg_{}", index + 1);
-    const auto before_proximal = static_cast<std::size_t>(rowOf(leg.kind).joints_of_proximal);
     // The moment of a free rod about its line has no effect on efforts, so the machine leaves it out; a file has it.
     const Leg& links = leg.spins ? machine_.given().legs[static_cast<std::size_t>(index)] : leg;
     std::size_t body = 0;
-    for (std::size_t k = 0; k < at.joints.size(); ++k) {
-      const bool to_proximal = k + 1 == before_proximal, to_distal = k + 1 == at.joints.size();
-      const bool in_universal = !to_proximal && !to_distal;
+    for (int k = 0; k < 3; ++k) {
+      const int link = at.chain.linkOf(k);
+      const bool in_universal = !at.chain.movesLink(k), to_proximal = !in_universal && link == 0,
+                 to_distal = !in_universal && link == 1;
       if (in_universal && leg.spins) continue;  // one ball instead of both hinges
-      const Eigen::Isometry3d& frame = k < before_proximal ? at.proximal : at.distal;
+      const Eigen::Isometry3d& frame = at.at.links[static_cast<std::size_t>(link)];
       const std::size_t next = to_proximal ? addLink(name + "_proximal", frame, links.proximal, leg.proximalCenter())
                                : to_distal ? addLink(name + "_distal", frame, links.distal, leg.distalCenter())
                                            : addBody(name + "_cross", frame, 0, {});
-      if (leg.spins && !slides(at.joints[k].coordinate) && k > 0)
-        addBall(name + "_inner_ball", body, next, at.joints[k].centre, false);
+      if (leg.spins && !at.chain.slides(k) && k > 0)
+        addBall(name + "_inner_ball", body, next, centreOf(at, k), false);
       else
-        addCoordinate(index, k, at.joints[k], body, next);
-      if (to_proximal) draw(next, frame.translation(), at.far_end, 0.02);
-      if (to_distal) draw(next, frame.translation(), at.tip, 0.014);
+        addCoordinate(index, k, at, body, next);
+      if (to_proximal) draw(next, frame.translation(), frame * at.chain.far_end, 0.02);
+      if (to_distal) draw(next, frame.translation(), tip, 0.014);
       body = next;
     }
-    tips_.push_back({body, at.tip});
+    tips_.push_back({body, tip});
     if (rowOf(leg.kind).hasCarriage() && leg.proximal.length != 0)
       note("The carriage's length is for drawing and is left out", name, leg.proximal.length, "m");
   }
@@ -87,28 +88,35 @@ class Builder {
     return addBody(name, frame, link.mass, {center_of_mass, link.inertia});
   }
 
-  void addCoordinate(int index, std::size_t k, const JointAt& at, std::size_t parent, std::size_t child) {
+  /// The first joint's is the base point, even if it slides.
+  static Vector3d centreOf(const LegPose& at, int k) {
+    return k == 0 ? at.chain.base_point : at.at.anchors[static_cast<std::size_t>(k)];
+  }
+
+  void addCoordinate(int index, int k, const LegPose& at, std::size_t parent, std::size_t child) {
     const Leg& leg = machine_.leg(index);
+    const auto joint_of_leg = static_cast<std::size_t>(k);
+    const Coordinate coordinate = at.chain.row.coordinates[joint_of_leg];
     GraphJoint joint;
-    joint.name = fmt::format("leg_{}_{}", index + 1, nameOf(at.coordinate));
-    joint.kind = slides(at.coordinate) ? JointKind::prismatic : JointKind::revolute;
+    joint.name = fmt::format("leg_{}_{}", index + 1, nameOf(coordinate));
+    joint.kind = slides(coordinate) ? JointKind::prismatic : JointKind::revolute;
     joint.parent = parent;
     joint.child = child;
-    joint.centre = joint.centre_of_child = at.centre;
-    joint.axis[0] = at.axis;
-    joint.position = at.position;
-    joint.damping = leg.friction.on(at.coordinate);
-    joint.friction = leg.coulomb.on(at.coordinate);
-    joint.smoothing_speed = joint.friction != 0 ? leg.coulomb.speedOf(at.coordinate) : 0;
-    joint.driven = leg.actuated[k];
-    joint.rotor_inertia = leg.rotor_inertia.on(at.coordinate);
-    if (rowOf(leg.kind).isTelescopic() && slides(at.coordinate)) {
+    joint.centre = joint.centre_of_child = centreOf(at, k);
+    joint.axis[0] = at.at.axes[joint_of_leg];
+    joint.position = at.q(k);
+    joint.damping = leg.friction.on(coordinate);
+    joint.friction = leg.coulomb.on(coordinate);
+    joint.smoothing_speed = joint.friction != 0 ? leg.coulomb.speedOf(coordinate) : 0;
+    joint.driven = leg.actuated[joint_of_leg];
+    joint.rotor_inertia = leg.rotor_inertia.on(coordinate);
+    if (at.chain.row.isTelescopic() && slides(coordinate)) {
       joint.lower = leg.distal.length;
       joint.upper = leg.distal.length + leg.proximal.length;
     }
     if (joint.friction != 0)
       note("Coulomb friction is sharp for other tools: only an import reads its smoothing", joint.name,
-           joint.smoothing_speed, slides(at.coordinate) ? "m/s" : "rad/s");
+           joint.smoothing_speed, slides(coordinate) ? "m/s" : "rad/s");
     out_.graph.joints.push_back(joint);
   }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 
 namespace ursula {
@@ -20,14 +19,18 @@ std::optional<LinkLengths> LegType::lengthsAtDeadCentre(const LegSpan& /*span*/,
   return std::nullopt;
 }
 
-double sideOfTriangle(double side, double angle, double ratio) {
-  return side / std::sqrt(ratio * ratio + 1 - 2 * ratio * std::cos(angle));
+LegSpan spanOf(const Vector3d& u, const Vector3d& AB) {
+  const double along = u.dot(AB);
+  return {AB.norm(), std::abs(along), (AB - along * u).norm()};
 }
 
-const LegType& typeOf(LegKind kind) {
-  constexpr std::array types = {ursLeg, upsLeg, rusLeg, pusLeg};  // in the order of LegKind
-  static_assert(types.size() == leg_kind_count);
-  return types[static_cast<std::size_t>(kind)]();
+std::array<double, 2> directionOf(const Matrix3d& frame, const Vector3d& AB) {
+  const Vector3d x = frame.col(0), u = frame.col(1), across = u.cross(AB);
+  return {std::atan2(-across.dot(u.cross(x)), across.dot(x)), std::atan2(across.norm(), u.dot(AB))};
+}
+
+double sideOfTriangle(double side, double angle, double ratio) {
+  return side / std::sqrt(ratio * ratio + 1 - 2 * ratio * std::cos(angle));
 }
 
 }  // namespace ursula

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "model/joint_variables.h"
+#include "model/legs/leg_chain.h"
 #include "model/manipulator.h"
 
 namespace ursula {
@@ -12,6 +13,8 @@ namespace ursula {
 struct LegSpan {
   double distance, along, across;
 };
+/// Returns the span of AB over the unit axis û.
+LegSpan spanOf(const Vector3d& u, const Vector3d& AB);
 
 /// The distance that a leg must span and the range that its links can span, in m, with words for messages.
 struct Reach {
@@ -29,13 +32,18 @@ struct LinkLengths {
   double l, s;
 };
 
-/// Geometry and words of one kind of leg, without mechanics; each kind has a file in this folder.
+/// Joints, geometry and words of one kind of leg, without mechanics; each kind has a file in this folder.
 class LegType {
  public:
   LegType() = default;
   virtual ~LegType() = default;
   LegType(const LegType&) = delete;
   LegType& operator=(const LegType&) = delete;
+
+  /// Returns the three joints, from the base to the tip.
+  virtual LegJoints joints(const Leg& leg) const = 0;
+  /// coordinatesAt() of a leg that can reach.
+  virtual Vector3d coordinates(const Leg& leg, const Matrix3d& frame, const Vector3d& AB) const = 0;
 
   /// Returns the distance that the leg must span and what it can span.
   virtual Reach reach(const Leg& leg, const LegSpan& span) const = 0;
@@ -67,18 +75,22 @@ class LegType {
   virtual const char* measuredFrom() const { return "apart"; }
 };
 
-const LegType& typeOf(LegKind kind);
+inline const LegType& typeOf(LegKind kind) { return rowOf(kind).type(); }
 
 /// Returns links of a telescopic leg that uses `share` (0 to 1) of its stroke at `distance`; l over s is `ratio`.
 LinkLengths lengthsAtStroke(double distance, double share, double ratio);
 
+/// Returns φ, and ψ of the line AB, of a universal joint at the base: the turn about −û from `frame`, then the angle
+/// from û.
+std::array<double, 2> directionOf(const Matrix3d& frame, const Vector3d& AB);
+
+/// 1 or −1, the sign that selects the leg's branch.
+inline double sideOf(const Leg& leg) { return leg.knee == Knee::positive ? 1 : -1; }
+
+/// Turns z to û, so that the second angle of a universal joint counts from û, and half a turn about x.
+inline const Eigen::Quaterniond z_to_axis(1, -1, 0, 0), half_turn(0, 1, 0, 0);
+
 /// Solves the triangle whose sides s·`ratio` and s enclose `angle` opposite `side`; returns s.
 double sideOfTriangle(double side, double angle, double ratio);
-
-/// The kinds, each in its own file such as urs.cpp.
-const LegType& ursLeg();
-const LegType& upsLeg();
-const LegType& rusLeg();
-const LegType& pusLeg();
 
 }  // namespace ursula

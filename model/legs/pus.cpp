@@ -17,6 +17,18 @@ LinkLengths rodAt(double theta, double across, double ratio) {
 /// The leg of carriage and rod.
 class Pus : public LegType {
  public:
+  LegJoints joints(const Leg& /*leg*/) const override {
+    return {{{Vector3d::UnitY()}, {-Vector3d::UnitZ(), Vector3d::Zero(), z_to_axis}, {Vector3d::UnitX()}}};
+  }
+
+  /// The rail meets the sphere of radius s about B; with a positive knee the carriage is behind B.
+  Vector3d coordinates(const Leg& leg, const Matrix3d& frame, const Vector3d& AB) const override {
+    const Vector3d k = frame.transpose() * AB;
+    const double s = leg.distal.length, r = std::hypot(k.x(), k.z());
+    const double ahead = sideOf(leg) * std::sqrt((s - r) * (s + r));
+    return {k.y() - ahead, std::atan2(-k.x(), k.z()), std::atan2(r, ahead)};
+  }
+
   Reach reach(const Leg& leg, const LegSpan& span) const override {
     return {span.across, 0, leg.distal.length, "its platform point is", "m from its rail, and its rod spans"};
   }

@@ -9,6 +9,17 @@ namespace {
 /// The telescopic leg: universal joint, cylinder, rod.
 class Ups : public LegType {
  public:
+  LegJoints joints(const Leg& leg) const override {
+    return {{{-Vector3d::UnitZ(), Vector3d::Zero(), z_to_axis},
+             {Vector3d::UnitX()},
+             {Vector3d::UnitZ(), -leg.distal.length * Vector3d::UnitZ()}}};
+  }
+
+  Vector3d coordinates(const Leg& /*leg*/, const Matrix3d& frame, const Vector3d& AB) const override {
+    const auto [phi, psi] = directionOf(frame, AB);
+    return {phi, psi, AB.norm()};
+  }
+
   Reach reach(const Leg& leg, const LegSpan& span) const override {
     const double l = leg.proximal.length, s = leg.distal.length;
     return {span.distance, s, l + s, "its base and platform points are", "m apart, and its cylinder and rod span"};

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "base/scalar.h"
 #include "model/legs/leg_type.h"
 
 namespace ursula {
@@ -8,6 +9,20 @@ namespace {
 /// The paper's leg: universal joint, proximal link, knee, distal link.
 class Urs : public LegType {
  public:
+  /// At θ = 0 the distal link is folded back onto the proximal one.
+  LegJoints joints(const Leg& leg) const override {
+    return {{{-Vector3d::UnitZ(), Vector3d::Zero(), z_to_axis},
+             {Vector3d::UnitX()},
+             {Vector3d::UnitX(), leg.proximal.length * Vector3d::UnitZ(), half_turn}}};
+  }
+
+  /// A triangle of l, s and |AB| in the plane of û and B.
+  Vector3d coordinates(const Leg& leg, const Matrix3d& frame, const Vector3d& AB) const override {
+    const double l = leg.proximal.length, s = leg.distal.length, q = AB.norm(), side = sideOf(leg);
+    const auto [phi, psi] = directionOf(frame, AB);
+    return {phi, psi + side * angleOpposite(s, l, q), side * angleOpposite(q, l, s)};
+  }
+
   Reach reach(const Leg& leg, const LegSpan& span) const override {
     const double l = leg.proximal.length, s = leg.distal.length;
     return {span.distance, std::abs(l - s), l + s, "its base and platform points are",

@@ -151,9 +151,12 @@ const std::vector<WrongLeg>& wrongLegs(LegKind kind) {
     case LegKind::PUS:
       return wrongPus();
     case LegKind::URS:
+      return wrongUrs();
+    default:
       break;
   }
-  return wrongUrs();
+  static const std::vector<WrongLeg> none;
+  return none;
 }
 
 WithFormulaErrors faultOf(LegKind kind, const WrongLeg& wrong) {

@@ -26,8 +26,9 @@ TEST(ExportGraph, LegsReachThePlatform) {
       const Leg& leg = scenario.manipulator->leg(i);
       const Vector3d tip = pose.p + pose.Q * leg.platform_point;
       const LegPose at = legPose(leg, i, tip);
-      EXPECT_LT((at.distal * Vector3d(0, 0, leg.distal.length) - tip).norm(), 1e-14 * 64) << name << " leg " << i + 1;
-      for (const Matrix3d& axes : {Matrix3d(at.proximal.linear()), Matrix3d(at.distal.linear())}) {
+      EXPECT_LT((at.at.links[1] * Vector3d(0, 0, leg.distal.length) - tip).norm(), 1e-14 * 64)
+          << name << " leg " << i + 1;
+      for (const Matrix3d& axes : {Matrix3d(at.at.links[0].linear()), Matrix3d(at.at.links[1].linear())}) {
         EXPECT_TRUE((axes.transpose() * axes).isIdentity(1e-14)) << name;
         EXPECT_GT(axes.determinant(), 0) << name;
       }
