@@ -89,6 +89,7 @@ std::string ursula::python::byIndex(const std::string& message, const std::strin
 
 PYBIND11_MODULE(_ursula, module) {
   module.doc() = ursula::python::words::module;
+  module.attr("__module__") = "ursula";  // of the classes, in errors and signatures
   module.attr("__version__") = URSULA_VERSION;
   addErrors(module);
   ursula::python::addMotion(module);

@@ -143,6 +143,8 @@ Comparison ModelledLog::directions() const {
   out.t.resize(out.model.rows());
   for (Eigen::Index i = 0; i < out.t.size(); ++i) out.t(i) = filtered_.time(filtered_.settled()[i]);
   out.slopes = slopes();
+  const Eigen::MatrixXd taken = filtered_.takenOut();
+  for (Eigen::Index i = 0; i < out.t.size(); ++i) out.model.row(i) += taken.row(i) * out.slopes[i].transpose();
   out.kept = steadyRows(out.slopes);
   addLinear(out);
   addOfLog(out);

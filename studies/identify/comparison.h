@@ -33,9 +33,10 @@ using MotorTables = std::array<Eigen::MatrixXd, motor_count>;
 
 /// Measured and modelled efforts after both low passes, and the directions that change the model.
 struct Comparison {
-  Eigen::VectorXd t;                ///< instants of the motion, s
-  Eigen::MatrixXd measured, model;  ///< N·m or N
-  Eigen::MatrixXd model_rate;       ///< N·m/s or N/s
+  Eigen::VectorXd t;  ///< instants of the motion, s
+  Eigen::MatrixXd measured,
+      model;                   ///< N·m or N, both with all noise of the motion; all else is without its likely part
+  Eigen::MatrixXd model_rate;  ///< N·m/s or N/s
   std::vector<Segment> segments;
   std::vector<Direction> directions;      ///< linear ones first, then six offsets, the delay, six errors of the low
                                           ///< passes, and further ones

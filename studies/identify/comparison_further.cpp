@@ -96,7 +96,7 @@ void ModelledLog::addSeries(Comparison& out) const {
                       length = motor.slides() ? "m" : "rad";
     const Eigen::VectorXd S = efforts_.col(k);
     Eigen::MatrixXd column = Eigen::MatrixXd::Zero(rows, motor_count);
-    column.col(k) = out.model.col(k);
+    column.col(k) = filtered_.lowPass(S);
     add(out, {DirectionKind::scale, "", "scale of the effort" + of, "", k, 1, 0.1}, column);
     const double speed = scenario_.manipulator->leg(motor.leg).coulomb.speedOf(motor.coordinate);
     const Eigen::VectorXd rubbing = S.cwiseAbs().array() * (driven_rates_.col(k) / speed).array().tanh();

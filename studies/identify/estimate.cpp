@@ -76,6 +76,7 @@ Whitened whiten(const Comparison& comparison, EffortNoise noise) {
                  correction = freedom / std::max(freedom - static_cast<double>(out.rank), 1.0);
     const double chance = 1 + surely * std::sqrt(2 / static_cast<double>(instants));
     out.variances = noise.variances();
+    out.weighed = noise.weighed(left);
     Vector6d more = Vector6d::Zero();
     for (int k = 0; k < motor_count; ++k) {
       const double seen = correction * out.residual.col(k).cwiseAbs2().mean(), known = out.variances.col(k).mean();

@@ -21,6 +21,7 @@ SquareRoot squareRootOf(const Eigen::MatrixXd& rows_with_y);
 struct Whitened {
   Eigen::MatrixXd rows;       ///< six for each instant; columns are the directions, then measured minus model
   Eigen::MatrixXd residual;   ///< left by linear directions, offsets and delay; N·m or N, an instant in each row
+  Eigen::VectorXd weighed;    ///< the residual times the inverse covariance of noise, six rows for each instant
   Eigen::MatrixXd variances;  ///< of the noise, likewise
   Vector6d expected;          ///< root mean squares of noise as the samples explain it, N·m or N
   Eigen::Index rank = 0;      ///< rank of that fit

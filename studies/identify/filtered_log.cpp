@@ -31,6 +31,15 @@ double gainOf(const Eigen::VectorXd& weights, double angle) {
   return out;
 }
 
+double square(double x) { return x * x; }
+
+void takeFrom(MeasuredState& state, const Eigen::RowVectorXd& noise) {
+  const Eigen::Index channels = state.value.size();
+  state.value -= noise.head(channels).transpose();
+  state.rate -= noise.segment(channels, channels).transpose();
+  state.acceleration -= noise.tail(channels).transpose();
+}
+
 /// A period's series has so many harmonics at most, if more than its own are wanted.
 int sharperHarmonics(const FilterPlan& plan) {
   return std::min(static_cast<int>(std::ceil(sharper * plan.series.harmonics())), plan.series.known());
@@ -83,7 +92,13 @@ FilteredLog::FilteredLog(const MeasuredLog& log, const FilterPlan& plan, double 
     states_ = statesBy(first_, centers_);
   }
   if (log_.load.cols() > 0) load_ = Kernel::apply(first_.value, log_.load, centers_);
+  taken_ = Eigen::MatrixXd::Zero(size(), 3 * log_.motion.cols());
   placeSettled();
+}
+
+void FilteredLog::takeOut(const Eigen::MatrixXd& noise) {
+  for (Eigen::Index i = 0; i < size(); ++i) takeFrom(states_[i], noise.row(i) - taken_.row(i));
+  taken_ = noise;
 }
 
 void FilteredLog::placeCenters(double reach) {
@@ -130,8 +145,10 @@ std::vector<MeasuredState> FilteredLog::statesBy(const Kernel& kernel, const std
 }
 
 MeasuredState FilteredLog::sharperState(Eigen::Index i) const {
-  if (plan_.is_period) return plan_.series.at(time(i) - log_.start, sharperHarmonics(plan_));
-  return statesBy(sharper_, {centers_[i]}).front();
+  MeasuredState out = plan_.is_period ? plan_.series.at(time(i) - log_.start, sharperHarmonics(plan_))
+                                      : statesBy(sharper_, {centers_[i]}).front();
+  takeFrom(out, taken_.row(i));
+  return out;
 }
 
 Eigen::MatrixXd FilteredLog::sharperEfforts() const {
@@ -166,13 +183,13 @@ Eigen::Matrix3d FilteredLog::Lines::covariance(double later) const {
   return out;
 }
 
-template <class Gain>
-FilteredLog::Lines FilteredLog::linesOf(double spacing, double end, const Gain& gain) const {
+template <class Power>
+FilteredLog::Lines FilteredLog::linesOf(double spacing, double end, const Power& power) const {
   Lines out;
   for (int k = 0; k * spacing < end; ++k) {
-    const double omega = 2 * std::acos(-1.0) * k * spacing, pass = gain(omega);
+    const double omega = 2 * std::acos(-1.0) * k * spacing;
     out.omega.push_back(omega);
-    out.weight.push_back((k == 0 ? 1 : 2) * log_.step * spacing * pass * pass);
+    out.weight.push_back((k == 0 ? 1 : 2) * log_.step * spacing * power(omega));
   }
   return out;
 }
@@ -181,27 +198,26 @@ FilteredLog::Lines FilteredLog::effortLines() const {
   if (!plan_.is_period) return motionLines();
   const Kernel efforts(plan_.effort_cut, log_.step);
   return linesOf(0.5 / memory(), beyond * plan_.effort_cut,
-                 [&](double omega) { return gainOf(efforts.value, omega * log_.step); });
+                 [&](double omega) { return square(gainOf(efforts.value, omega * log_.step)); });
 }
 
-FilteredLog::Lines FilteredLog::motionLines() const {
+FilteredLog::Lines FilteredLog::motionLines(int second_passes) const {
   const double period = plan_.series.frequency();
-  if (plan_.is_period)
-    return linesOf(period, plan_.state_cut, [&](double omega) { return gainOf(second_.value, omega * step()); });
-  return linesOf(0.5 / memory(), beyond * plan_.state_cut, [&](double omega) {
-    return gainOf(second_.value, omega * step()) * gainOf(first_.value, omega * log_.step);
-  });
+  const auto second = [&](double omega) { return std::pow(gainOf(second_.value, omega * step()), second_passes); };
+  if (plan_.is_period) return linesOf(period, plan_.state_cut, second);
+  return linesOf(0.5 / memory(), beyond * plan_.state_cut,
+                 [&](double omega) { return second(omega) * square(gainOf(first_.value, omega * log_.step)); });
 }
 
 FilteredLog::Lines FilteredLog::sharperLines() const {
   const double period = plan_.series.frequency();
   if (plan_.is_period)
     return linesOf(period, (sharperHarmonics(plan_) + 0.5) * period, [&](double omega) {
-      return omega < 2 * std::acos(-1.0) * plan_.state_cut ? 0.0 : gainOf(second_.value, omega * step());
+      return omega < 2 * std::acos(-1.0) * plan_.state_cut ? 0.0 : square(gainOf(second_.value, omega * step()));
     });
   return linesOf(0.5 / memory(), sharper * beyond * plan_.state_cut, [&](double omega) {
-    return gainOf(second_.value, omega * step()) *
-           (gainOf(sharper_.value, omega * log_.step) - gainOf(first_.value, omega * log_.step));
+    return square(gainOf(second_.value, omega * step()) *
+                  (gainOf(sharper_.value, omega * log_.step) - gainOf(first_.value, omega * log_.step)));
   });
 }
 

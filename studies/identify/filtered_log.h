@@ -39,6 +39,11 @@ class FilteredLog {
   double step() const { return log_.step * static_cast<double>(plan_.coarse); }
   double time(Eigen::Index i) const;
   const MeasuredState& state(Eigen::Index i) const { return states_[i]; }
+  /// Takes this noise out of the motion, instead of what was taken out before. An instant in each row; value, rate and
+  /// acceleration of all channels.
+  void takeOut(const Eigen::MatrixXd& noise);
+  /// Returns what is taken out of the motion, after the efforts' low pass; a settled instant in each row.
+  Eigen::MatrixXd takenOut() const { return lowPass(taken_); }
   /// Returns the same by a low pass with a higher cut-off.
   MeasuredState sharperState(Eigen::Index i) const;
   /// Returns what this one adds to efforts at the motion's instants: nothing if the motion is a period.
@@ -64,7 +69,9 @@ class FilteredLog {
     Eigen::Matrix3d covariance(double later) const;
   };
   Lines effortLines() const;
-  Lines motionLines() const;
+  Lines motionLines() const { return motionLines(2); }
+  /// The same between the motion's instants, before the second low pass, and the settled ones.
+  Lines crossLines() const { return motionLines(1); }
   /// The same for what the low pass with the higher cut-off passes in addition.
   Lines sharperLines() const;
   /// Returns the time beyond which noise is uncorrelated, s.
@@ -73,8 +80,9 @@ class FilteredLog {
   const FilterPlan& plan() const { return plan_; }
 
  private:
-  template <class Gain>
-  Lines linesOf(double spacing, double end, const Gain& gain) const;
+  template <class Power>
+  Lines linesOf(double spacing, double end, const Power& power) const;
+  Lines motionLines(int second_passes) const;
   void placeCenters(double reach);
   void placeSettled();
   std::vector<MeasuredState> statesBy(const Kernel& kernel, const std::vector<Eigen::Index>& rows) const;
@@ -86,7 +94,7 @@ class FilteredLog {
   std::vector<Eigen::Index> centers_, settled_;
   std::vector<Segment> segments_, settled_segments_;
   std::vector<MeasuredState> states_;
-  Eigen::MatrixXd load_;
+  Eigen::MatrixXd load_, taken_;
 };
 
 }  // namespace ursula::identification

@@ -17,6 +17,9 @@ using namespace identification;
 
 constexpr double most_delay = 0.25, delay_share = 0.1, settled_delay = 0.002;
 constexpr Eigen::Index fewest_instants = 24;
+/// So many times the motion's likely noise is taken out of the columns. Otherwise columns and residual share it, so
+/// that chance looks like a cause. One pass leaves some of it.
+constexpr int noise_passes = 2;
 /// The fitted model's residual may be this many times what noise explains.
 constexpr double most_left = 2;
 
@@ -47,15 +50,20 @@ class Identification {
     tell(0.1, "following the motion");
     const double coarse = coarseDelay(plan, most);
     if (out_.instants < fewest_instants) return unjudged();
-    const FilteredLog filtered(log_, plan, std::abs(coarse) + 1 / plan.state_cut);
-    const ModelledLog modelled(scenario_, log_, filtered);
-    tell(0.3, "making the regressor");
-    Comparison comparison = modelled.directions();
+    FilteredLog filtered(log_, plan, std::abs(coarse) + 1 / plan.state_cut);
+    std::optional<ModelledLog> modelled;
+    Comparison comparison;
+    for (int pass = 0; pass <= noise_passes; ++pass) {
+      tell(0.2 + 0.2 * pass, "making the regressor");
+      if (pass > 0) filtered.takeOut(likelyNoiseOfMotion(filtered, comparison, whitened_.weighed));
+      modelled.emplace(scenario_, log_, filtered);
+      comparison = modelled->directions();
+      setPlausible(scenario_.manipulator->parameters(), comparison, comparison.directions);
+      settleDelay(*modelled, coarse, comparison);
+    }
     noteSingular(comparison, filtered);
-    setPlausible(scenario_.manipulator->parameters(), comparison, comparison.directions);
-    settleDelay(modelled, coarse, comparison);
     tell(0.8, "judging and estimating");
-    conclude(modelled, comparison);
+    conclude(*modelled, comparison);
     return std::move(out_);
   }
 

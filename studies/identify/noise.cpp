@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace ursula::identification {
 namespace {
@@ -79,6 +80,38 @@ Eigen::MatrixXd EffortNoise::whitened(const Eigen::MatrixXd& rows) const {
   for (const Block& block : blocks_)
     out.middleRows(6 * block.first, 6 * block.count) =
         block.factors.matrixL().solve(rows.middleRows(6 * block.first, 6 * block.count));
+  return out;
+}
+
+Eigen::VectorXd EffortNoise::weighed(const Eigen::VectorXd& column) const {
+  Eigen::VectorXd out = column;
+  for (const Block& block : blocks_) block.factors.solveInPlace(out.segment(6 * block.first, 6 * block.count));
+  return out;
+}
+
+Eigen::MatrixXd likelyNoiseOfMotion(const FilteredLog& filtered, const Comparison& comparison,
+                                    const Eigen::VectorXd& weighed) {
+  const Eigen::VectorXd variances = filtered.plan().noise.motion.cwiseAbs2().replicate(3, 1);
+  const Eigen::Index channels = variances.size() / 3;
+  const FilteredLog::Lines lines = filtered.crossLines();
+  std::map<long, Eigen::Matrix3d> between;  // by steps later
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(filtered.size(), 3 * channels);
+  Eigen::Index first = 0;
+  for (std::size_t row = 0; row < comparison.kept.size(); ++row) {
+    const double reach = filtered.plan().is_period ? 1e300 : filtered.memory(), t = comparison.t(row);
+    const Eigen::VectorXd pull =
+        -variances.cwiseProduct(comparison.slopes[row].transpose() * weighed.segment<6>(6 * row));
+    while (t - filtered.time(first) > reach) ++first;
+    for (Eigen::Index i = first; i < out.rows() && filtered.time(i) - t < reach; ++i) {
+      const double later = t - filtered.time(i);
+      const auto [at, is_new] = between.try_emplace(std::lround(later / filtered.step()));
+      if (is_new) at->second = lines.covariance(later);
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b)
+          out.row(i).segment(a * channels, channels) +=
+              at->second(a, b) * pull.segment(b * channels, channels).transpose();
+    }
+  }
   return out;
 }
 

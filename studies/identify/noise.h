@@ -18,6 +18,8 @@ class EffortNoise {
   void add(const Vector6d& more);
   /// Makes the noise of all rows independent, with deviation 1; six rows for each instant, in the order of time.
   Eigen::MatrixXd whitened(const Eigen::MatrixXd& rows) const;
+  /// Multiplies by the inverse covariance.
+  Eigen::VectorXd weighed(const Eigen::VectorXd& column) const;
 
  private:
   struct Block {
@@ -32,5 +34,10 @@ class EffortNoise {
   std::vector<Block> blocks_;
   Eigen::MatrixXd variances_;
 };
+
+/// Returns the motion's likeliest noise, given the efforts' noise of all kinds times its inverse covariance: an instant
+/// of the motion in each row; value, rate and acceleration of all channels. Its size is at most about its deviation.
+Eigen::MatrixXd likelyNoiseOfMotion(const FilteredLog& filtered, const Comparison& comparison,
+                                    const Eigen::VectorXd& weighed);
 
 }  // namespace ursula::identification

@@ -137,3 +137,8 @@ def test_all_that_is_wrong_in_a_scenario_is_shown():
     said = str(refused.value)
     assert said.startswith("<text>:2:1: error: unknown key 'weight'") and "\n<text>:4:11: error: manipulator.gravity: a float" in said
     assert said.count("^") == 2
+
+
+def test_classes_have_the_modules_name(quick):
+    with pytest.raises(AttributeError, match="'ursula.Scenario' object has no attribute 'duratoin'"):
+        ursula.read_scenario(quick).duratoin

@@ -191,7 +191,7 @@ TEST(ReadingCause, isNamedBeyondTheStrokeAndOfBothRates) {
     leg.distal.length -= 0.9;
     leg.distal.center_of_mass -= 0.9;  // at the same place
   }
-  const Subject solver = nocSubject(Manipulator(longer), nullptr);
+  const Subject solver = nocSubject(Manipulator(longer), scenario.load);
   const auto diagnosed = [&](const std::function<void(Motion<double>&)>& misread) {
     GivenTorques given{"solver", equallySpaced(scenario.trajectory->duration(), 31), {}};
     for (const double t : given.t) {
@@ -212,7 +212,7 @@ TEST(ReadingCause, isNamedBeyondTheStrokeAndOfBothRates) {
   };
   Motion<double> turned = scenario.trajectory->at(0);
   x_first(turned);
-  EXPECT_THROW(nocSubject(*scenario.manipulator, nullptr).torques(turned), PoseError) << "it is not beyond the stroke";
+  EXPECT_THROW(nocSubject(*scenario.manipulator, scenario.load).torques(turned), PoseError) << "it is not beyond the stroke";
   expect(diagnosed(x_first), CauseKind::frame, "orientation");
   expect(diagnosed([](Motion<double>& motion) {
            motion.omega *= 180 / M_PI;
