@@ -18,6 +18,7 @@ if [[ -n ${TILTED:-} ]]; then
   sed -i 's/orientation = \[1.0, 0.0, 0.0, 0.0\]/orientation = [0.9848, 0.1736, 0.0, 0.0]/
           s/orientation = \[0.9962, 0.0, 0.0, 0.0872\]/orientation = [0.9848, 0.0868, 0.1228, 0.0868]/' my.toml
 fi
+[[ -z ${WHOLE:-} ]] || printf '\n[simulation]\nsamples = 11\n' >>my.toml
 [[ -z $format ]] || "$ursula" export my.toml --format "$format" --out "my.$format" >/dev/null
 
 judge() {
