@@ -212,7 +212,8 @@ TEST(ReadingCause, isNamedBeyondTheStrokeAndOfBothRates) {
   };
   Motion<double> turned = scenario.trajectory->at(0);
   x_first(turned);
-  EXPECT_THROW(nocSubject(*scenario.manipulator, scenario.load).torques(turned), PoseError) << "it is not beyond the stroke";
+  EXPECT_THROW(nocSubject(*scenario.manipulator, scenario.load).torques(turned), PoseError)
+      << "it is not beyond the stroke";
   expect(diagnosed(x_first), CauseKind::frame, "orientation");
   expect(diagnosed([](Motion<double>& motion) {
            motion.omega *= 180 / M_PI;
