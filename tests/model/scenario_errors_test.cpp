@@ -4,10 +4,12 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 #include "model/scenario.h"
 #include "model/scenario_excerpt.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/model/refusals.h"
 #include "tests/model/scenario_text.h"
 
@@ -23,12 +25,13 @@ std::string changed(std::initializer_list<std::pair<const char*, const char*>> c
 }
 
 /// "6:1 unknown key 'mas'", a line for each error.
-std::vector<std::string> errorsOf(const std::string& text) {
-  std::istringstream lines(refusal<ScenarioError>([&] { parseScenario(text, "a.toml"); }));
+std::vector<std::string> errorsAt(const std::string& text, const std::filesystem::path& file) {
+  std::istringstream lines(refusal<ScenarioError>([&] { parseScenario(text, file); }));
   std::vector<std::string> out;
   for (std::string line; std::getline(lines, line);) out.push_back(line.substr(0, line.find(", expected")));
   return out;
 }
+std::vector<std::string> errorsOf(const std::string& text) { return errorsAt(text, "a.toml"); }
 
 TEST(ScenarioErrors, areAllToldInTheOrderOfTheFile) {
   const std::string text = changed({{"mass = 500.0", "zz = 1\naa = 2"},
@@ -57,6 +60,23 @@ TEST(ScenarioErrors, includeWhatOnlyTheReaderKnows) {
       errorsOf(
           changed({{"inertia = [3.3, 3.3, 0.015]", "inertia = [33.0, 3.3, 0.015]"}, {"pitch = 1.2", "pitch = 0"}})),
       testing::ElementsAre(HasSubstr("manipulator.leg_defaults.distal.inertia"), HasSubstr("trajectory.pitch: 0")));
+}
+
+/// Beside an error, no valid value is called wrong: each shipped scenario with one wrong key has one error.
+TEST(ScenarioErrors, leaveValidValuesAlone) {
+  int scenarios = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(URSULA_SCENARIOS)) {
+    if (entry.path().extension() != ".toml") continue;
+    const std::string text = TemporaryFolder::read(entry.path()) + "\n[zz]\na = 1\n";
+    EXPECT_THAT(errorsAt(text, entry.path()), testing::ElementsAre(HasSubstr("unknown key 'zz'"))) << entry.path();
+    ++scenarios;
+  }
+  EXPECT_GT(scenarios, 20);
+  std::string carriages =
+      TemporaryFolder::read(std::string(URSULA_SCENARIOS) + "/../apps/starting/PUS.toml") + "\n[zz]\na = 1\n";
+  carriages = replaced(carriages, "proximal = {", "proximal = { length = 0.0,");
+  EXPECT_THAT(errorsOf(carriages), testing::ElementsAre(HasSubstr("unknown key 'zz'")));
+  EXPECT_EQ(errorsOf(replaced(carriages, "mass = 8.0", "mass = -8.0")).size(), 2u);
 }
 
 TEST(ScenarioErrors, areAtMostTen) {
