@@ -6,16 +6,19 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/choice.h"
 #include "apps/embedded_scenario.h"
 #include "apps/output.h"
 #include "apps/verbs.h"
 #include "base/text.h"
+#include "model/scenario_lengths.h"
 
 namespace ursula {
 namespace {
 
 struct InitOptions {
-  std::string file, kind = "URS";
+  std::string file, kind = "URS", from;
+  int lengths_per_metre = 1;
 };
 
 LegKind kindOf(const std::string& name) {
@@ -41,10 +44,10 @@ std::string textFor(const std::string& file, LegKind kind) {
 }
 
 int init(const InitOptions& options) {
-  const LegKind kind = kindOf(options.kind);
   if (options.file != "-" && std::filesystem::exists(std::filesystem::symlink_status(options.file)))
     throw UsageError(options.file + " exists, expected the name of a new file");
-  writeOutput(options.file, textFor(options.file, kind));
+  writeOutput(options.file, options.from.empty() ? textFor(options.file, kindOf(options.kind))
+                                                 : withLengthsInMetres(options.lengths_per_metre, options.from));
   if (options.file != "-") say("wrote {}; change it, then: ursula check {}\n", options.file, shellWord(options.file));
   return exit_passed;
 }
@@ -58,7 +61,12 @@ void addInit(CLI::App& app, std::function<int()>& run) {
   std::string kinds;
   for (const LegKindRow& row : leg_kinds)
     kinds += fmt::format("{}{} ({})", kinds.empty() ? "" : ", ", row.name, row.words);
-  verb->add_option("--kind", options->kind, "Kind of the legs: " + kinds)->capture_default_str();
+  CLI::Option* kind = verb->add_option("--kind", options->kind, "Kind of the legs: " + kinds)->capture_default_str();
+  CLI::Option* from = verb->add_option("--from", options->from, "Scenario (TOML) to write anew, with its comments");
+  CLI::Option* lengths = verb->add_option("--lengths", options->lengths_per_metre,
+                                          "Unit of the lengths in --from, which the new file has in m; all else stays");
+  takeOneOf<int>(lengths, {{"mm", 1000}, {"cm", 100}})->needs(from);
+  from->needs(lengths)->excludes(kind);
   verb->callback([options, &run] { run = [options] { return init(*options); }; });
 }
 

@@ -9,6 +9,7 @@
 #include "base/toml_bounds.h"
 #include "model/check_catalogue.h"
 #include "model/scenario_excerpt.h"
+#include "model/scenario_files.h"
 #include "model/scenario_sections.h"
 #include "model/toml_reader.h"
 
@@ -117,12 +118,6 @@ Scenario parseScenario(const std::string& text, const std::filesystem::path& fil
   }
 }
 
-Scenario readScenario(const std::filesystem::path& file) {
-  try {
-    return parseScenario(readText(file, {most_toml_bytes, "a scenario in TOML"}), file);
-  } catch (const TextRefusal& refusal) {
-    throw errorAt(file.string(), refusal);
-  }
-}
+Scenario readScenario(const std::filesystem::path& file) { return parseScenario(scenarioText(file), file); }
 
 }  // namespace ursula

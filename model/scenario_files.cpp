@@ -40,6 +40,14 @@ CsvTable readCsvBeside(const TomlSection& table, const std::string& key) {
   return readCsv(file);
 }
 
+std::string scenarioText(const std::filesystem::path& file) {
+  try {
+    return readText(file, {most_toml_bytes, "a scenario in TOML"});
+  } catch (const TextRefusal& refusal) {
+    throw errorAt(file.string(), refusal);
+  }
+}
+
 Scenario readScenarioOrInput(const std::filesystem::path& file) {
   static constexpr const char* input = "<stdin>";
   if (file != "-") return readScenario(file);

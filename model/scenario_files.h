@@ -17,6 +17,9 @@ std::vector<std::filesystem::path> makeFilesAbsolute(toml::table& document, cons
 /// Returns the same paths of a scenario that was read; none if a program made it.
 std::vector<std::filesystem::path> filesNamedBy(const Scenario& scenario);
 
+/// Reads the text of a scenario file. Throws ScenarioError if it cannot be read.
+std::string scenarioText(const std::filesystem::path& file);
+
 /// Calls readScenario(), or reads standard input if `file` is "-". Then errors name it <stdin>, and relative paths
 /// refer to the current folder. Standard input can be read once.
 Scenario readScenarioOrInput(const std::filesystem::path& file);

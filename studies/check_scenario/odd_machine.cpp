@@ -126,7 +126,8 @@ void units(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
                      fmt::format("{:.6g} m, while the leg's other link is {:.6g} m long", longer, shorter),
                      inMillimetres(longer)});
     else if (reach > 100)
-      out.push_back({legKey(i, which), fmt::format("the leg is {:.6g} m long", reach), inMillimetres(reach)});
+      out.push_back({legKey(i, which), fmt::format("the leg is {:.6g} m long", reach),
+                     inMillimetres(reach) + "; ursula init NEW --from FILE --lengths mm turns all lengths into m"});
     if (base > 100 * reach)
       out.push_back({legKey(i, "base_point"),
                      fmt::format("the base's points lie within {:.6g} m of their mean, while the leg is {:.6g} m long",

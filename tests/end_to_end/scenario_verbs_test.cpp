@@ -36,6 +36,29 @@ TEST(Init, neverOverwrites) {
   EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "mine.toml"), "mine");
 }
 
+TEST(Init, turnsLengthsInMillimetresIntoMetres) {
+  const Program ursula;
+  ASSERT_EQ(ursula("init metres.toml --kind UPS").exit_code, 0);
+  std::string text = TemporaryFolder::read(ursula.folder() / "metres.toml");
+  const auto replace = [&](const std::string& old, const std::string& now) {
+    ASSERT_NE(text.find(old), std::string::npos) << old;
+    text.replace(text.find(old), old.size(), now);
+  };
+  const std::string links = "length = 1.1, mass = 25.0, center_of_mass = 0.5", point = "[1.1818, -0.2084, 0.0000]";
+  replace(links, "\"length\" = 1_100, mass = 25.0, center_of_mass = { value = 500, tolerance = 5 }");
+  replace("name = \"metres\"", "name = \"µm\"; base_point = 1");
+  ursula.write("broken.toml", text);
+  EXPECT_EQ(ursula("init new.toml --from broken.toml --lengths mm").exit_code, 2);
+  replace("; base_point = 1", "  # base_point = 1");
+  replace("base_point = " + point, "base_point = [1181.8, -208.4, 0.0]  # µ 7");
+  ursula.write("millimetres.toml", text);
+  EXPECT_EQ(ursula("init new.toml --from millimetres.toml --lengths mm").exit_code, 0);
+  const std::string made = TemporaryFolder::read(ursula.folder() / "new.toml");
+  EXPECT_THAT(made, HasSubstr("\"length\" = 1.1, mass = 25.0, center_of_mass = { value = 0.5, tolerance = 0.005 }"));
+  EXPECT_THAT(made, HasSubstr("base_point = [1.1818, -0.2084, 0]  # µ 7"));
+  EXPECT_THAT(made, HasSubstr("\"µm\"  # base_point = 1"));
+}
+
 class InitKind : public testing::TestWithParam<const char*> {};
 
 TEST_P(InitKind, writesAScenarioThatPassesTheCheckAndCanBeComputed) {
