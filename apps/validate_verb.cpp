@@ -49,8 +49,11 @@ std::string inWords(double seconds) {
 }
 
 /// Announces long work before it starts, and what ends it.
-void sayWork(const Scenario& scenario, double limit) {
+void sayWork(const Scenario& scenario, double limit, bool asks_process) {
   constexpr double worth_a_word = 60;  // s: shorter work is not announced
+  if (asks_process && !(limit > 0))
+    say("{}: asks the solver some 20,000 times; --time-limit 20 judges its samples alone, and names a cause\n",
+        scenario.name);
   const double estimate = estimatedSeconds(scenario);
   if (!(estimate > worth_a_word)) return;
   const std::string ends = limit > 0 ? fmt::format("ends after {:g} s", limit) : "--time-limit SECONDS ends it sooner";
@@ -65,7 +68,7 @@ ValidationResult judge(const Scenario& scenario, const ValidateOptions& options)
       from_file ? readTorquesAloud(options.torques, options.map, scenario.manipulator->motors()) : TorqueFile{};
   std::optional<Progress> progress;
   if (!options.quiet) {
-    alongMotion(scenario, [&] { sayWork(scenario, options.time_limit); });
+    alongMotion(scenario, [&] { sayWork(scenario, options.time_limit, !options.solver.command.empty()); });
     progress.emplace(scenario.name);
   }
   if (from_file) return validateExternal(scenario, torques, options.time_limit);
@@ -117,7 +120,7 @@ int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions
   ValidationOptions validation;
   validation.time_limit = options.time_limit > 0 ? options.time_limit : suite_time_limit;
   suite.judge = [validation, &options](const Scenario& scenario) {
-    if (!options.quiet) sayWork(scenario, validation.time_limit);
+    if (!options.quiet) sayWork(scenario, validation.time_limit, false);
     ValidationResult result = options.solver.command.empty()
                                   ? validate(scenario, validation)
                                   : validateExternalSolver(scenario, options.solver, validation);
@@ -139,6 +142,9 @@ void requireSense(const ValidateOptions& options, const std::vector<SuiteMember>
   if (members.size() > 1 && !options.torques.empty())
     throw UsageError(
         fmt::format("--torques: got {} scenarios, expected one, because a file is of one motion", members.size()));
+  for (const std::string& each : options.scenarios)
+    if (std::filesystem::path(each).extension() == ".csv")
+      throw UsageError(fmt::format("{} is no scenario, did you mean --torques {}?", shellWord(each), shellWord(each)));
   if (!options.map.empty() && options.torques.empty())
     throw UsageError("--map: expected also --torques FILE.csv, whose columns it names");
   const auto& given = options.scenarios;

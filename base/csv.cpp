@@ -85,8 +85,12 @@ void readRow(std::string_view text, int line, const std::vector<std::size_t>& wa
   const std::size_t width = table.names.size() + table.ignored.size();
   if (cells.size() != width)
     fail(table.file, line,
-         fmt::format("{} cell{}, expected {}, one for each column of the header", cells.size(),
-                     cells.size() == 1 ? "" : "s", width));
+         fmt::format(
+             "{} cell{}, expected {}, one for each column of the header{}", cells.size(), cells.size() == 1 ? "" : "s",
+             width,
+             options.dialect.separator == ',' && width > 2 && cells.size() + 1 >= 2 * width && cells.size() <= 2 * width
+                 ? "; with decimal commas, separate the values by ';'"
+                 : ""));
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     requireShort(cells[wanted[i]], table.file, line);
     std::string cell(cells[wanted[i]]);

@@ -154,7 +154,9 @@ Motors motorsOf(const ManipulatorParameters& machine) {
   if (count != out.size())
     throw InvalidParameter("manipulator.leg",
                            fmt::format("{} actuated coordinates of {} legs in all", count, machine.legs.size()),
-                           "exactly 6");
+                           machine.legs.size() < leg_count && count < out.size()
+                               ? "exactly 6: is a leg missing, or a motor in its 'actuated'?"
+                               : "exactly 6");
   return out;
 }
 

@@ -59,6 +59,9 @@ INSTANTIATE_TEST_SUITE_P(
         CsvRefusal{"duplicate", "x,y,x\n1,2,3\n", "1: error: duplicate column 'x', expected each name once"},
         CsvRefusal{"missing", "x,y\n1,2\n3\n", "3: error: 1 cell, expected 2, one for each column of the header"},
         CsvRefusal{"surplus", "x,y\n1,2,3\n", "2: error: 3 cells, expected 2, one for each column of the header"},
+        CsvRefusal{"decimal_commas", "x,y,z\n0,1,2,5,3,5\n",
+                   "2: error: 6 cells, expected 3, one for each column of the header; with decimal commas, separate "
+                   "the values by ';'"},
         CsvRefusal{"comma_at_end", "x,y\n1,2,\n", "2: error: 3 cells, expected 2, one for each column of the header"},
         CsvRefusal{"gap", "x,y\n1,2\n\n3,4\n", "3: error: 1 cell, expected 2, one for each column of the header"},
         CsvRefusal{"cell", "x,y\n1,\n", "2: error: an empty cell in column 'y', expected a finite number"},

@@ -96,9 +96,11 @@ TEST(ImpossibleScenario, hasFiveLegs) {
   const auto last = good_scenario.rfind("[[manipulator.leg]]"), end = good_scenario.find("[trajectory]");
   const std::string five = good_scenario.substr(0, last) + good_scenario.substr(end);
   const MarkedText changed = marked(replaced(five, "[[manipulator.leg]]", "@[[manipulator.leg]]"));
-  EXPECT_EQ(refusal<ScenarioError>([&] { parseScenario(changed.text, "a.toml"); }),
-            "a.toml:" + changed.place +
-                ": error: manipulator.leg: 5 actuated coordinates of 5 legs in all, expected exactly 6");
+  EXPECT_EQ(
+      refusal<ScenarioError>([&] { parseScenario(changed.text, "a.toml"); }),
+      "a.toml:" + changed.place +
+          ": error: manipulator.leg: 5 actuated coordinates of 5 legs in all, expected exactly 6: is a leg missing, "
+          "or a motor in its 'actuated'?");
 }
 
 TEST(ImpossibleScenario, hasSevenLegs) {

@@ -2,6 +2,7 @@
 
 #include "validation/subject/torque_file.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -64,6 +65,15 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"after_end", row_0 + "3.001,1,1,1,1,1,1\n",
                             "3: error: t_s = 3.001 lies outside of the motion, expected 0 to 3 s"}),
     [](const auto& test) { return test.param.name; });
+
+TEST(TorqueFile, asksForTheTimeAndForATransposedTable) {
+  EXPECT_THAT(refusal<CsvError>([] { parseTorqueFile("1,2,3,4,5,6\n1,2,3,4,5,6\n", "a.csv"); }),
+              testing::HasSubstr("; is the column of the time missing?"));
+  std::string transposed = "t_s";
+  for (int i = 0; i < 20; ++i) transposed += fmt::format(",0.{:02}", i);
+  EXPECT_THAT(refusal<CsvError>([&] { parseTorqueFile(transposed + "\n", "a.csv"); }),
+              testing::HasSubstr("; is the table transposed? expected a row per instant"));
+}
 
 TEST(TorqueFile, refusesAMissingColumn) {
   EXPECT_EQ(refusal<CsvError>([] { parseTorqueFile("t_s,tau_1_Nm\n0,1\n", "a.csv"); })

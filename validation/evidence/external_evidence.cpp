@@ -206,8 +206,8 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   if (const GrowthWindow* window = hopeless(plan, windows, useful)) {
     const double bound = plannedBound(plan, *window);
     out.not_replayed = fmt::format(
-        "too few samples or digits; from t = {:.6g} s the torques' error between samples may move P by "
-        "{:.3g} m within {:.3g} s, beyond {:.3g} m a limit says nothing",
+        "too few samples or digits for a replay: from t = {:.6g} s what the file leaves open may move P by {:.3g} m "
+        "within {:.3g} s, and a verdict needs {:.3g} m; give more digits or rows, or a tolerance of the torques",
         window->start() * units.time, bound * units.length, (window->end() - window->start()) * units.time,
         useful * units.length);
     out.bound = bound;

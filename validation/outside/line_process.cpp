@@ -172,8 +172,9 @@ double numberOf(std::string_view cell, int index) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool is_small = error == std::errc::result_out_of_range && isBelowRange(digits);
   if ((error != std::errc{} && !is_small) || end != digits.data() + digits.size() || !std::isfinite(value))
-    throw SolverProcessError(
-        fmt::format("its effort {} is '{}', expected a finite number", index, shown(trimmed(cell), most_shown)));
+    throw SolverProcessError(fmt::format("its effort {} is '{}', expected a finite number{}", index,
+                                         shown(trimmed(cell), most_shown),
+                                         cell.find_first_of("[(") != cell.npos ? ", and no brackets" : ""));
   return value;
 }
 

@@ -54,9 +54,11 @@ std::string outOfReach(const Scenario& scenario, const PoseError& refusal) {
   const Reach reach = reachOf(scenario.manipulator->leg(refusal.leg()), scenario.trajectory->at(refusal.instant()));
   const bool too_far = refusal.measure() > refusal.bound();
   const double by = std::abs(refusal.measure() - refusal.bound());
-  return fmt::format("leg {} is out of reach at t = {:.6g} s: {} {:.6g} {} {} {:.6g} m; it misses by {:.4g} m{}",
+  const bool is_mm = too_far && refusal.measure() > 100 * reach.most;
+  return fmt::format("leg {} is out of reach at t = {:.6g} s: {} {:.6g} {} {} {:.6g} m; it misses by {:.4g} m{}{}",
                      refusal.leg() + 1, refusal.instant(), reach.before, refusal.measure(), reach.after,
-                     too_far ? "at most" : "at least", too_far ? reach.most : reach.least, by, worstMiss(scenario, by));
+                     too_far ? "at most" : "at least", too_far ? reach.most : reach.least, by, worstMiss(scenario, by),
+                     is_mm ? "; are positions given in mm? Expected m" : "");
 }
 
 /// Says how far a stretched or folded leg is from its dead centre, as a length.

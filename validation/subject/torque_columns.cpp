@@ -141,6 +141,10 @@ class Finder {
       else
         out += fmt::format(" --map {}", quoted(name + "=" + *column));
     }
+    if (found_.count("t_s") == 0 && dialect_.header == 0 && dialect_.header_cells.size() + 1 == wanted_columns)
+      return "; is the column of the time missing?";
+    if (dialect_.header_cells.size() > 2 * wanted_columns)
+      return "; is the table transposed? expected a row per instant";
     if (unguessed.empty()) return "; if that is what its columns hold, add" + out;
     out += fmt::format(" --map {}=COLUMN", unguessed.front());
     unguessed.erase(unguessed.begin());
