@@ -3,16 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
 #include "model/check_catalogue.h"
+#include "report/html_template.h"
 #include "report/quantity.h"
 #include "report/report.h"
 #include "report/result_facts.h"
 #include "report/text.h"
 
 namespace ursula::report {
+
+extern const std::string_view badge_html, checks_html;  // of web/
+
 namespace {
 
 // The decades of the bars, equal for all bars so that they are comparable; the limit is at 0.
@@ -33,17 +38,12 @@ Decades decadesOf(const std::vector<Check>& checks) {
   return decades;
 }
 
-std::string bar(const Check& check, const Decades& decades) {
+HtmlValue bar(const Check& check, const Decades& decades) {
   const double share = limitShare(check);
-  if (std::isnan(share)) return "<span class=\"bar none\"></span>";
-  return fmt::format(
-      "<span class=\"bar{}\" aria-hidden=\"true\"><span style=\"width:{:.1f}%\"></span><i "
-      "style=\"left:{:.1f}%\"></i></span>",
-      share > 1 ? " over" : "", share > 0 ? decades.percent(share) : 0.0, decades.percent(1));
-}
-
-std::string entry(const char* term, const std::string& text) {
-  return text.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>", term, escaped(text));
+  if (std::isnan(share)) return false;
+  return {{"over", share > 1},
+          {"width", fmt::format("{:.1f}", share > 0 ? decades.percent(share) : 0.0)},
+          {"mark", fmt::format("{:.1f}", decades.percent(1))}};
 }
 
 // Uses the shortest digits that give the same doubles.
@@ -51,12 +51,6 @@ std::string inFull(const Check& check) {
   if (std::isnan(check.value) && std::isnan(check.limit)) return check.name;
   return fmt::format("{}: value {}, limit {}, unit {}", check.name, check.value, check.limit,
                      check.unit.empty() ? "1" : check.unit);
-}
-
-std::string valueOfLimit(const Check& check) {
-  if (std::isnan(check.value) && std::isnan(check.limit)) return "no value";
-  return fmt::format("{} <span class=\"aside\">of {}</span>", escaped(quantity(check.value, check.unit)),
-                     escaped(quantity(check.limit, check.unit)));
 }
 
 const char* sign(Verdict verdict) {
@@ -79,17 +73,29 @@ std::string word(Verdict verdict) {
   return out;
 }
 
-std::string item(const Check& check, const Decades& decades) {
+std::vector<HtmlValue> entries(const Check& check) {
   const CheckRow* row = checkRow(check.name);
-  const bool open = check.verdict == Verdict::fail || check.verdict == Verdict::inconclusive;
-  return fmt::format(
-      "<details class=\"check {0}\"{1}><summary><span class=\"sign\"><span aria-hidden=\"true\">{2}</span>"
-      "<span class=\"unseen\">{3}: </span></span><span class=\"what\">{4}</span>{5}<span class=\"numbers\">{6}</span>"
-      "</summary><dl>{7}{8}{9}{10}</dl></details>\n",
-      name(check.verdict), open ? " open" : "", sign(check.verdict), word(check.verdict),
-      escaped(checkTitle(check.name)), bar(check, decades), valueOfLimit(check),
-      entry("Means", row == nullptr ? "" : row->meaning), entry("Found", check.why),
-      entry("Limit from", formulaInPrint(check.basis)), entry("In full", inFull(check)));
+  const std::array<std::pair<const char*, std::string>, 4> all = {{{"Means", row == nullptr ? "" : row->meaning},
+                                                                   {"Found", check.why},
+                                                                   {"Limit from", formulaInPrint(check.basis)},
+                                                                   {"In full", inFull(check)}}};
+  std::vector<HtmlValue> out;
+  for (const auto& [term, text] : all)
+    if (!text.empty()) out.push_back({{"term", term}, {"text", text}});
+  return out;
+}
+
+HtmlValue item(const Check& check, const Decades& decades) {
+  const bool has_value = !std::isnan(check.value) || !std::isnan(check.limit);
+  return {{"verdict", name(check.verdict)},
+          {"open", check.verdict == Verdict::fail || check.verdict == Verdict::inconclusive},
+          {"sign", sign(check.verdict)},
+          {"word", word(check.verdict)},
+          {"title", checkTitle(check.name)},
+          {"bar", bar(check, decades)},
+          {"value", has_value ? quantity(check.value, check.unit) : "no value"},
+          {"limit", has_value ? quantity(check.limit, check.unit) : ""},
+          {"entries", entries(check)}};
 }
 
 int severity(const std::vector<Check>& checks) {
@@ -109,20 +115,20 @@ std::string counts(const std::vector<Check>& checks) {
   return text;
 }
 
-std::string group(const std::string& title, std::vector<Check> checks, const Decades& decades) {
+HtmlValue group(const std::string& title, std::vector<Check> checks, const Decades& decades) {
   std::stable_sort(checks.begin(), checks.end(),
                    [](const Check& a, const Check& b) { return severity({a}) > severity({b}); });
-  std::string items;
-  for (const Check& check : checks) items += item(check, decades);
   const int worst = severity(checks);
   const Verdict verdict = worst == 2 ? Verdict::fail : worst == 1 ? Verdict::inconclusive : Verdict::pass;
-  return fmt::format(
-      "<details class=\"group {0}\"{1}><summary>{2} <span class=\"title\">{3}</span> <span class=\"aside\">{4}</span>"
-      "</summary>\n{5}</details>\n",
-      name(verdict), worst > 0 ? " open" : "", verdictBadge(verdict), escaped(title), counts(checks), items);
+  return {{"verdict", name(verdict)},
+          {"open", worst > 0},
+          {"badge", verdictBadge(verdict)},
+          {"title", title},
+          {"counts", counts(checks)},
+          {"checks", listOf(checks, [&decades](const Check& check) { return item(check, decades); })}};
 }
 
-std::string notApplicable(const std::vector<Check>& checks) {
+HtmlValue notApplicable(const std::vector<Check>& checks) {
   std::map<std::string, std::string> names;  // keyed by reason
   std::size_t count = 0, reported = 0;
   for (const Check& check : checks) {
@@ -132,24 +138,24 @@ std::string notApplicable(const std::vector<Check>& checks) {
     of += (of.empty() ? "" : ", ") + checkTitle(check.name);
     ++(is_reported ? reported : count);
   }
-  if (count + reported == 0) return "";
-  std::string items;
-  for (const auto& [why, which] : names)
-    items += fmt::format("<dt>since {}</dt><dd>{}</dd>", escaped(why), escaped(which));
-  return fmt::format(
-      "<details class=\"group not_applicable\"><summary>{} <span class=\"title\">{} more do not apply "
-      "here{}</span></summary><dl>{}</dl></details>\n",
-      verdictBadge(Verdict::not_applicable), count,
-      reported == 0 ? "" : fmt::format(", {} are reported and not judged", reported), items);
+  if (count + reported == 0) return false;
+  const auto reason = [](const auto& each) { return HtmlValue{{"why", each.first}, {"checks", each.second}}; };
+  return {{"badge", verdictBadge(Verdict::not_applicable)},
+          {"count", count},
+          {"reported", reported == 0 ? "" : std::to_string(reported)},
+          {"reasons", listOf(names, reason)}};
 }
 
 }  // namespace
 
+std::string badge(Verdict verdict, const std::string& words) {
+  return rendered(badge_html, {{"verdict", name(verdict)}, {"sign", sign(verdict)}, {"words", words}});
+}
+
 std::string verdictBadge(Verdict verdict) {
   std::string upper = word(verdict);
   for (char& c : upper) c = c == ' ' ? ' ' : static_cast<char>(c - 'a' + 'A');
-  return fmt::format("<span class=\"badge {}\"><span aria-hidden=\"true\">{}</span> {}</span>", name(verdict),
-                     sign(verdict), upper);
+  return badge(verdict, upper);
 }
 
 std::string checksList(const std::vector<Check>& all, const std::string& cause) {
@@ -165,13 +171,13 @@ std::string checksList(const std::vector<Check>& all, const std::string& cause) 
     if (!by_group[k].empty()) order.push_back(k);
   std::stable_sort(order.begin(), order.end(),
                    [&by_group](std::size_t a, std::size_t b) { return severity(by_group[a]) > severity(by_group[b]); });
-  std::string out;
-  for (const std::size_t k : order)
-    out += group(k < checkGroups().size() ? checkGroups()[k] : "Further checks", by_group[k], decades);
-  return fmt::format(
-      "<p class=\"aside\">Each bar is value / limit on a logarithmic scale from 10<sup>{:.0f}</sup> to "
-      "10<sup>{:.0f}</sup>; the upright line is the limit. A check opens on a click.</p>\n{}{}",
-      decades.low, decades.high, out, notApplicable(checks));
+  const auto group_of = [&](std::size_t k) {
+    return group(k < checkGroups().size() ? checkGroups()[k] : "Further checks", by_group[k], decades);
+  };
+  return rendered(checks_html, {{"low", fmt::format("{:.0f}", decades.low)},
+                                {"high", fmt::format("{:.0f}", decades.high)},
+                                {"groups", listOf(order, group_of)},
+                                {"not_applicable", notApplicable(checks)}});
 }
 
 }  // namespace ursula::report

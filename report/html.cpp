@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/text.h"
+#include "report/html_template.h"
 #include "report/page.h"
 #include "report/picture.h"
 #include "report/plots.h"
@@ -15,28 +16,10 @@
 #include "validation/verdict/effort_words.h"
 
 namespace ursula::report {
+
+extern const std::string_view facts_html, report_html;  // of web/
+
 namespace {
-
-std::string section(const std::string& id, const std::string& title, const std::string& content) {
-  if (content.empty()) return "";
-  return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}\n</section>\n", id, title, content);
-}
-
-std::string factsTable(const char* caption, const std::vector<std::pair<std::string, std::string>>& facts) {
-  if (facts.empty()) return "";
-  std::string rows;
-  for (const auto& [key, text] : facts) {
-    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped(key), escaped(text));
-  }
-  return fmt::format("<table class=\"facts\">\n<caption>{}</caption>\n<tbody>\n{}</tbody>\n</table>", caption, rows);
-}
-
-std::vector<std::pair<std::string, std::string>> printed(std::vector<std::pair<std::string, std::string>> facts) {
-  for (auto& [key, text] : facts) text = formulaInPrint(text);
-  return facts;
-}
-
-constexpr const char* suite_link = "<a class=\"up\" href=\"../index.html\">← The suite</a>\n";
 
 /// The command that repeats the run in the folder of its files; a function in C++ or Python has none.
 std::string command(const ValidationResult& result) {
@@ -54,15 +37,20 @@ std::string command(const ValidationResult& result) {
   add("--rtol", given("relative tolerance of efforts"));
   add("--atol", given("absolute tolerance of efforts"));
   if (!given("any tolerance").empty()) out += " --any-tolerance";
-  return fmt::format("<p>To do it again: <code>{}</code></p>", escaped(out));
+  return out;
 }
 
-std::string keyFiguresHtml(const ValidationResult& result) {
-  std::string out;
-  for (const KeyFigure& figure : keyFigures(result))
-    out += fmt::format("<div><dt>{}</dt><dd><b>{}</b> <span>{}</span></dd></div>", escaped(figure.what),
-                       escaped(figure.value), escaped(figure.remark));
-  return out;
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+std::string factsTable(const char* caption, const Facts& facts, const std::string& command = "") {
+  if (facts.empty()) return "";
+  const auto row = [](const auto& fact) { return HtmlValue{{"key", fact.first}, {"text", fact.second}}; };
+  return rendered(facts_html, {{"caption", caption}, {"facts", listOf(facts, row)}, {"command", command}});
+}
+
+Facts printed(Facts facts) {
+  for (auto& [key, text] : facts) text = formulaInPrint(text);
+  return facts;
 }
 
 /// The figure of the error's sources for the first screen.
@@ -72,22 +60,7 @@ std::string sources(const std::vector<Plot>& plots) {
   return "";
 }
 
-std::string stage(const Picture* picture) {
-  return picture == nullptr ? "" : "<div class=\"stage\" id=\"stage\">" + svgMachine(*picture) + "</div>";
-}
-
-/// Which motors are off; else the reason in detail.
-std::string detailHtml(const ValidationResult& result) {
-  const std::string motors = motorsTable(result), why = motors.empty() ? detail(result) : "";
-  return why.empty() ? motors : "<p class=\"why\">" + escaped(why) + "</p>";
-}
-
-struct Part {
-  const char *id, *title;
-  std::string content;
-};
-
-std::vector<Part> parts(const ValidationResult& result, const Picture* picture, const std::vector<Plot>& plots) {
+std::vector<PageSection> parts(const ValidationResult& result, const Picture* picture, const std::vector<Plot>& plots) {
   return {{"checks", "Checks", checksList(result.checks, result.cause_words.cause)},
           {"errors", "Errors along the motion", figuresHtml(plots, PlotGroup::errors)},
           {"efforts", "Efforts", figuresHtml(plots, PlotGroup::efforts)},
@@ -97,36 +70,36 @@ std::vector<Part> parts(const ValidationResult& result, const Picture* picture, 
           {"statistics", "Error statistics", statisticsTable(result)},
           {"input", "Input", picture == nullptr ? "" : inputCard(*picture)},
           {"findings", "Findings", factsTable("Facts that are not judged", printed(findingTexts(result)))},
-          {"provenance", "Provenance", factsTable("The sources of this result", result.provenance) + command(result)}};
+          {"provenance", "Provenance", factsTable("The sources of this result", result.provenance, command(result))}};
 }
 
 }  // namespace
 
 std::string reportHtml(const ValidationResult& result, Place place) {
+  const auto inWords = [noun = effortNoun(result)](const std::string& text) { return inEffortWords(noun, text); };
   const std::vector<Plot> charts = plots(result);
   const std::shared_ptr<const Picture> picture = pictureOf(result);
-  std::string sections, links;
-  for (const Part& part : parts(result, picture.get(), charts)) {
-    sections += section(part.id, part.title, part.content);
-    if (!part.content.empty()) links += fmt::format("<a href=\"#{}\">{}</a>\n", part.id, part.title);
-  }
-  const auto inWords = [&result](const std::string& text) { return inEffortWords(effortNoun(result), text); };
-  return filled(report_template, {{"scenario", escaped(result.scenario)},
-                                  {"style", std::string(report_style)},
-                                  {"verdict", name(result.verdict)},
-                                  {"badge", verdictBadge(result.verdict)},
-                                  {"sentence", escaped(sentence(result))},
-                                  {"detail", inWords(detailHtml(result))},
-                                  {"machine", picture == nullptr ? "" : escaped(machineLine(*picture))},
-                                  {"figures", inWords(keyFiguresHtml(result))},
-                                  {"reason", escaped(powersInPrint(reason(result.verdict, result.checks)))},
-                                  {"sources", inWords(sources(charts))},
-                                  {"stage", stage(picture.get())},
-                                  {"suite", place == Place::in_suite ? suite_link : ""},
-                                  {"links", inWords(links)},
-                                  {"sections", inWords(sections)},
-                                  {"data", pageData(result, picture.get(), charts)},
-                                  {"script", std::string(report_script)}});
+  std::vector<PageSection> sections = parts(result, picture.get(), charts);
+  for (auto& [id, title, html] : sections) title = inWords(title), html = inWords(html);
+  const std::string motors = motorsTable(result);
+  return rendered(report_html, {{"scenario", result.scenario},
+                                {"style", std::string(report_style)},
+                                {"verdict", name(result.verdict)},
+                                {"badge", verdictBadge(result.verdict)},
+                                {"sentence", sentence(result)},
+                                {"motors", inWords(motors)},
+                                {"why", motors.empty() ? inWords(detail(result)) : ""},
+                                {"machine", picture == nullptr ? "" : machineLine(*picture)},
+                                {"figures", inWords(keyFiguresHtml(keyFigures(result)))},
+                                {"reason", powersInPrint(reason(result.verdict, result.checks))},
+                                {"sources", inWords(sources(charts))},
+                                {"stage", picture == nullptr ? "" : svgMachine(*picture)},
+                                {"in_suite", place == Place::in_suite},
+                                {"links", linksHtml(sections)},
+                                {"sections", sectionsHtml(sections)},
+                                {"data", pageData(result, picture.get(), charts)},
+                                {"script", std::string(report_script)}}) +
+         "\n";
 }
 
 }  // namespace ursula::report

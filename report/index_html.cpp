@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/check_catalogue.h"
+#include "report/html_template.h"
 #include "report/page.h"
 #include "report/plots.h"
 #include "report/quantity.h"
@@ -13,6 +14,9 @@
 #include "report/written_files.h"
 
 namespace ursula::report {
+
+extern const std::string_view index_html;  // of web/
+
 namespace {
 
 /// All checks of any scenario, in groups.
@@ -32,66 +36,54 @@ int shade(double share) {
                                            : 0;
 }
 
-std::string cell(const SuiteEntry& entry, const std::string& name) {
+HtmlValue cell(const SuiteEntry& entry, const std::string& name) {
   const auto check =
       std::find_if(entry.checks.begin(), entry.checks.end(), [&name](const Check& each) { return each.name == name; });
-  if (check == entry.checks.end() || check->verdict == Verdict::not_applicable)
-    return "<td class=\"cell not_applicable\"><span class=\"unseen\">does not apply</span></td>";
-  const char* sign = check->verdict == Verdict::fail ? "✗" : check->verdict == Verdict::inconclusive ? "?" : "";
-  return fmt::format(
-      "<td class=\"cell {0} shade{1}\" title=\"{2}: {0}, {3}\"><span aria-hidden=\"true\">{4}</span>"
-      "<span class=\"unseen\">{0}</span></td>",
-      report::escaped(ursula::name(check->verdict)), shade(limitShare(*check)), escaped(checkTitle(name)),
-      escaped(standing(*check)), sign);
+  if (check == entry.checks.end() || check->verdict == Verdict::not_applicable) return {{"applies", false}};
+  return {{"applies", true},
+          {"verdict", ursula::name(check->verdict)},
+          {"shade", shade(limitShare(*check))},
+          {"title", checkTitle(name)},
+          {"standing", standing(*check)},
+          {"sign", check->verdict == Verdict::fail           ? "✗"
+                   : check->verdict == Verdict::inconclusive ? "?"
+                                                             : ""}};
 }
 
-std::string deciding(const SuiteEntry& entry) {
-  const Check* worst = worstCheck(entry.checks);
-  if (!entry.error.empty()) return escaped(entry.error);
-  if (worst == nullptr) return "no check was made";
-  return fmt::format("{} <span class=\"aside\">{}</span>", escaped(checkTitle(worst->name)), standing(*worst));
-}
-
-/// A scenario without a result is in error, which its verdict calls a failure.
-std::string badgeOf(const SuiteEntry& entry) {
-  return entry.error.empty() ? verdictBadge(entry.verdict)
-                             : "<span class=\"badge fail\"><span aria-hidden=\"true\">✗</span> ERROR</span>";
-}
-
-std::string row(const SuiteEntry& entry, const std::vector<std::string>& names) {
+HtmlValue row(const SuiteEntry& entry, const std::vector<std::string>& names) {
   const auto passed = std::count_if(entry.checks.begin(), entry.checks.end(),
                                     [](const Check& check) { return check.verdict == Verdict::pass; });
-  const std::string link = urlPath((entry.folder / "report.html").generic_string());
-  const std::string scenario = escaped(entry.scenario);
-  std::string cells;
-  for (const std::string& name : names) cells += cell(entry, name);
-  return fmt::format(
-      "<tr class=\"scenario {0}\" data-verdict=\"{0}\"><td>{1}</td><th scope=\"row\">{2}</th><td "
-      "class=\"number\">{3}</td><td class=\"deciding\">{4}</td><td>{5}</td><td class=\"number\" "
-      "data-value=\"{6:.3f}\">{6:.1f}</td><td>{7}</td>{8}</tr>\n",
-      name(entry.verdict), badgeOf(entry),
-      entry.error.empty() ? fmt::format("<a href=\"{}\">{}</a>", link, scenario) : scenario,
-      entry.error.empty() ? fmt::format("{} of {}", passed, judgedCount(entry.checks)) : "–", deciding(entry),
-      entry.dominant.empty() ? "–" : escaped(entry.dominant), entry.time.seconds, sparkline(entry.trend), cells);
+  const Check* worst = worstCheck(entry.checks);
+  const bool judged = entry.error.empty();
+  const std::string title = worst == nullptr ? "no check was made" : checkTitle(worst->name);
+  return {{"verdict", name(entry.verdict)},
+          {"badge", judged ? verdictBadge(entry.verdict) : badge(Verdict::fail, "ERROR")},
+          {"link", judged ? urlPath((entry.folder / "report.html").generic_string()) : ""},
+          {"scenario", entry.scenario},
+          {"passed", judged ? fmt::format("{} of {}", passed, judgedCount(entry.checks)) : "–"},
+          {"deciding", judged ? title : entry.error},
+          {"standing", judged && worst != nullptr ? standing(*worst) : ""},
+          {"dominant", entry.dominant.empty() ? "–" : entry.dominant},
+          {"milliseconds", fmt::format("{:.3f}", entry.time.seconds)},
+          {"seconds", fmt::format("{:.1f}", entry.time.seconds)},
+          {"trend", sparkline(entry.trend)},
+          {"cells", listOf(names, [&entry](const std::string& each) { return cell(entry, each); })}};
 }
 
 int rank(Verdict verdict) { return verdict == Verdict::fail ? 0 : verdict == Verdict::inconclusive ? 1 : 2; }
 
 /// Sorts failures first and otherwise keeps the order.
-std::string rows(std::vector<SuiteEntry> entries, const std::vector<std::string>& names) {
+std::vector<SuiteEntry> inOrder(std::vector<SuiteEntry> entries) {
   std::stable_sort(entries.begin(), entries.end(),
                    [](const SuiteEntry& a, const SuiteEntry& b) { return rank(a.verdict) < rank(b.verdict); });
-  std::string out;
-  for (const SuiteEntry& entry : entries) out += row(entry, names);
-  return out;
+  return entries;
 }
 
-std::string heads(const std::vector<std::string>& names) {
-  std::string out;
+std::vector<HtmlValue> heads(const std::vector<std::string>& names) {
+  std::vector<HtmlValue> out;
   std::size_t group = checkGroups().size() + 1;
   for (const std::string& name : names) {
-    out += fmt::format("<th scope=\"col\" class=\"upright{}\"><span>{}</span></th>",
-                       groupOf(name) != group ? " first" : "", escaped(checkTitle(name)));
+    out.push_back({{"first", groupOf(name) != group}, {"title", checkTitle(name)}});
     group = groupOf(name);
   }
   return out;
@@ -103,15 +95,17 @@ std::string indexHtml(const std::vector<SuiteEntry>& entries) {
   const std::vector<std::string> names = columns(entries);
   const Verdict verdict = suiteVerdict(entries);
   const std::string whole = fmt::format(" of {} scenario{}", entries.size(), entries.size() == 1 ? "" : "s");
-  return filled(index_template, {{"style", std::string(report_style)},
-                                 {"verdict", name(verdict)},
-                                 {"badge", verdictBadge(verdict)},
-                                 {"counts", countsOf(entries, whole) + "."},
-                                 {"seconds", fmt::format("{:.1f}", secondsOf(entries))},
-                                 {"run", runOf(entries)},
-                                 {"heads", heads(names)},
-                                 {"rows", rows(entries, names)},
-                                 {"script", std::string(index_script)}});
+  const auto row_of = [&names](const SuiteEntry& entry) { return row(entry, names); };
+  return rendered(index_html, {{"style", std::string(report_style)},
+                               {"verdict", name(verdict)},
+                               {"badge", verdictBadge(verdict)},
+                               {"counts", countsOf(entries, whole) + "."},
+                               {"seconds", fmt::format("{:.1f}", secondsOf(entries))},
+                               {"run", runOf(entries)},
+                               {"columns", heads(names)},
+                               {"rows", listOf(inOrder(entries), row_of)},
+                               {"script", std::string(index_script)}}) +
+         "\n";
 }
 
 }  // namespace ursula::report

@@ -7,10 +7,14 @@
 #include <array>
 #include <set>
 
+#include "report/html_template.h"
 #include "report/quantity.h"
 #include "report/text.h"
 
 namespace ursula::report {
+
+extern const std::string_view input_html;  // of web/
+
 namespace {
 
 std::string digits(double value) { return fmt::format("{:.6g}", value); }
@@ -23,9 +27,7 @@ std::string inertiaText(const Matrix3d& I) {
   return diagonal + fmt::format(", {:.6g}, {:.6g}, {:.6g}]", I(0, 1), I(0, 2), I(1, 2));
 }
 
-std::string fact(const std::string& what, const std::string& value) {
-  return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", what, escaped(value));
-}
+HtmlValue fact(const std::string& what, const std::string& value) { return {{"what", what}, {"value", value}}; }
 
 std::string linkText(const Link& link) {
   const std::string length = link.length > 0 ? fmt::format("length {} m, ", digits(link.length)) : "";
@@ -73,8 +75,7 @@ std::string loadText(const Load* load) {
 
 /// Legs with the same text share a row.
 template <class Text>
-std::string byLegs(const char* what, const Manipulator& machine, const Text& text) {
-  std::string rows;
+void addByLegs(const char* what, const Manipulator& machine, const Text& text, std::vector<HtmlValue>& facts) {
   std::set<std::string> done;
   for (int i = 0; i < machine.legCount(); ++i) {
     const std::string mine = text(machine.leg(i));
@@ -86,24 +87,23 @@ std::string byLegs(const char* what, const Manipulator& machine, const Text& tex
       all = all && shared;
       if (shared) legs += (legs.empty() ? "" : ", ") + std::to_string(k + 1);
     }
-    rows += fact(all ? std::string(what) + ", every leg" : fmt::format("{}, leg {}", what, legs), mine);
+    facts.push_back(fact(all ? std::string(what) + ", every leg" : fmt::format("{}, leg {}", what, legs), mine));
   }
-  return rows;
 }
 
-std::string legRows(const Manipulator& machine) {
-  std::string rows;
+std::vector<HtmlValue> legsOf(const Manipulator& machine) {
+  std::vector<HtmlValue> out;
   for (int i = 0; i < machine.legCount(); ++i) {
     const Leg& leg = machine.leg(i);
-    const char* knee = rowOf(leg.kind).knee == nullptr ? "–" : leg.knee == Knee::positive ? "positive" : "negative";
-    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", i + 1,
-                        vectorText(leg.base_point), vectorText(leg.base_axis), vectorText(leg.platform_point), knee);
+    out.push_back({{"leg", i + 1},
+                   {"base_point", vectorText(leg.base_point)},
+                   {"base_axis", vectorText(leg.base_axis)},
+                   {"platform_point", vectorText(leg.platform_point)},
+                   {"knee", rowOf(leg.kind).knee == nullptr ? "–"
+                            : leg.knee == Knee::positive    ? "positive"
+                                                            : "negative"}});
   }
-  return "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"Where the legs are held\"><table>"
-         "<caption>Where the legs are held: base point and axis in B, platform point in M, m</caption>"
-         "<thead><tr><th scope=\"col\">Leg</th><th scope=\"col\">Base point</th><th scope=\"col\">Base axis</th><th "
-         "scope=\"col\">Platform point</th><th scope=\"col\">Knee</th></tr></thead><tbody>\n" +
-         rows + "</tbody></table></div>";
+  return out;
 }
 
 }  // namespace
@@ -125,31 +125,25 @@ std::string inputCard(const Picture& picture) {
   const Scenario& scenario = picture.scenario;
   const Manipulator& machine = *scenario.manipulator;
   const Platform& platform = machine.platform();
-  std::string rows =
-      fact("Gravity", vectorText(machine.gravity()) + " m/s²") +
+  std::vector<HtmlValue> facts = {
+      fact("Gravity", vectorText(machine.gravity()) + " m/s²"),
       fact("Platform", fmt::format("mass {} kg, mass centre {} m in M, inertia {} kg·m²", digits(platform.mass),
-                                   vectorText(platform.center_of_mass), inertiaText(platform.inertia)));
-  rows += byLegs("Kind", machine, kindText);
-  rows += byLegs("Proximal link", machine, [](const Leg& leg) { return linkText(leg.proximal); });
-  rows += byLegs("Distal link", machine, [](const Leg& leg) { return linkText(leg.distal); });
-  rows += byLegs("Viscous friction", machine,
-                 [](const Leg& leg) { return frictionText(leg.friction, leg.kind, "N·m·s/rad", "N·s/m"); });
-  rows += byLegs("Coulomb friction", machine,
-                 [](const Leg& leg) { return frictionText(leg.coulomb, leg.kind, "N·m", "N"); });
+                                   vectorText(platform.center_of_mass), inertiaText(platform.inertia)))};
+  const auto add = [&](const char* what, const auto& text) { addByLegs(what, machine, text, facts); };
+  add("Kind", kindText);
+  add("Proximal link", [](const Leg& leg) { return linkText(leg.proximal); });
+  add("Distal link", [](const Leg& leg) { return linkText(leg.distal); });
+  add("Viscous friction", [](const Leg& leg) { return frictionText(leg.friction, leg.kind, "N·m·s/rad", "N·s/m"); });
+  add("Coulomb friction", [](const Leg& leg) { return frictionText(leg.coulomb, leg.kind, "N·m", "N"); });
   if (hasRotors(machine))
-    rows += byLegs("Rotor inertia", machine,
-                   [](const Leg& leg) { return frictionText(leg.rotor_inertia, leg.kind, "kg·m²", "kg"); });
+    add("Rotor inertia", [](const Leg& leg) { return frictionText(leg.rotor_inertia, leg.kind, "kg·m²", "kg"); });
   const auto& legs = machine.parameters().legs;
   if (std::any_of(legs.begin(), legs.end(), [](const Leg& leg) { return leg.spins; }))
-    rows += byLegs("Spin", machine, [](const Leg& leg) { return std::string(leg.spins ? "free" : "held"); });
-  rows += fact("Load", loadText(scenario.load.get()));
-  rows += fact("Motion", fmt::format("{}, {} s, judged at {} instants", scenario.trajectory->kind(),
-                                     digits(scenario.trajectory->duration()), scenario.simulation.samples));
-  return fmt::format(
-      "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"Machine and motion\"><table "
-      "class=\"facts\"><caption>Machine and motion, SI units, inertias as [xx, yy, zz] or with xy, xz, "
-      "yz</caption><tbody>\n{}</tbody></table></div>\n{}",
-      rows, legRows(machine));
+    add("Spin", [](const Leg& leg) { return std::string(leg.spins ? "free" : "held"); });
+  facts.push_back(fact("Load", loadText(scenario.load.get())));
+  facts.push_back(fact("Motion", fmt::format("{}, {} s, judged at {} instants", scenario.trajectory->kind(),
+                                             digits(scenario.trajectory->duration()), scenario.simulation.samples)));
+  return rendered(input_html, {{"facts", facts}, {"legs", legsOf(machine)}});
 }
 
 }  // namespace ursula::report

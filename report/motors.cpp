@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/html_template.h"
 #include "report/quantity.h"
 #include "report/text.h"
 
 namespace ursula::report {
+
+extern const std::string_view motors_html;  // of web/
+
 namespace {
 
 constexpr double may_remain = 0.01;  // share of a deviation that an explanation may leave, as in the diagnosis
@@ -78,14 +82,13 @@ std::string patternText(const MotorDeviation& motor) {
                      prettyUnit(motor.unit));
 }
 
-std::string motorCell(const std::string& text) { return "<td class=\"number\">" + escaped(text) + "</td>"; }
-
-std::string motorRow(const MotorDeviation& motor, bool patterns) {
-  const std::string begin = fmt::format("<tr><th scope=\"row\">{}</th>", motor.motor + 1);
-  if (motor.right) return fmt::format("{}<td colspan=\"{}\">within its limit</td></tr>\n", begin, patterns ? 4 : 3);
-  return begin + motorCell(quantity(motor.largest, motor.unit)) + motorCell(shareOfLargest(motor.share)) +
-         motorCell(fmt::format("{:.4g} s", motor.t)) +
-         (patterns ? "<td>" + escaped(patternText(motor)) + "</td>" : "") + "</tr>\n";
+HtmlValue motorRow(const MotorDeviation& motor) {
+  return {{"motor", motor.motor + 1},
+          {"right", motor.right},
+          {"largest", quantity(motor.largest, motor.unit)},
+          {"share", shareOfLargest(motor.share)},
+          {"at", fmt::format("{:.4g} s", motor.t)},
+          {"pattern", patternText(motor)}};
 }
 
 }  // namespace
@@ -103,13 +106,8 @@ std::string motorsTable(const ValidationResult& result) {
   const bool patterns = std::all_of(motors.begin(), motors.end(), [](const MotorDeviation& motor) {
     return motor.right || !patternText(motor).empty();
   });
-  std::string rows, heads;
-  for (const MotorDeviation& motor : motors) rows += motorRow(motor, patterns);
-  for (const char* head : {"off by", "of the largest", "at"})
-    heads += fmt::format("<th scope=\"col\" class=\"number\">{}</th>", head);
-  return fmt::format(
-      "<table class=\"motors\"><thead><tr><th scope=\"col\">Motor</th>{}{}</tr></thead><tbody>\n{}</tbody></table>",
-      heads, patterns ? "<th scope=\"col\">given is</th>" : "", rows);
+  return rendered(motors_html,
+                  {{"patterns", patterns}, {"columns", patterns ? 4 : 3}, {"motors", listOf(motors, motorRow)}});
 }
 
 std::vector<MotorDeviation> motorsOff(const ValidationResult& result) {

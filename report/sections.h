@@ -12,6 +12,8 @@ namespace ursula::report {
 
 /// Returns a verdict as a sign and a word, so that it does not depend on colour.
 std::string verdictBadge(Verdict verdict);
+/// The same with other words.
+std::string badge(Verdict verdict, const std::string& words);
 
 /// Returns the checks in groups; groups with checks that did not pass come first and are unfolded. Each check has a bar
 /// of value over limit on a logarithmic scale. Folded below are its meaning, its result and the origin of its limit.

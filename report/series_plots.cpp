@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "report/html_template.h"
 #include "report/plots.h"
 #include "report/quantity.h"
 #include "report/text.h"
 
 namespace ursula::report {
+
+extern const std::string_view chart_html;  // of web/
+
 namespace {
 
 std::vector<double> differences(const std::vector<double>& a, const std::vector<double>& b, bool size) {
@@ -195,11 +199,13 @@ void addSeriesPlots(const TimeSeries& series, const Motors& motors, double allow
 std::string figureHtml(const Plot& plot, std::size_t index, const char* heading, Drawing drawing) {
   const bool drawable =
       std::any_of(plot.lines.begin(), plot.lines.end(), [&plot](const Line& line) { return isDrawable(plot, line); });
-  return fmt::format("<figure><figcaption><{0}>{1}</{0}><p>{2}</p></figcaption>{3}</figure>\n", heading,
-                     escaped(plot.title), escaped(inWords(plot)),
-                     drawable ? fmt::format("<div class=\"chart\" data-plot=\"{}\">{}</div>", index,
-                                            drawing == Drawing::with ? svgPlot(plot) : "")
-                              : "");
+  return rendered(chart_html, {{"heading", heading},
+                               {"title", plot.title},
+                               {"words", inWords(plot)},
+                               {"drawable", drawable},
+                               {"index", index},
+                               {"drawing", drawable && drawing == Drawing::with ? svgPlot(plot) : ""}}) +
+         "\n";
 }
 
 std::string figuresHtml(const std::vector<Plot>& plots, PlotGroup group) {

@@ -6,11 +6,15 @@
 #include <array>
 #include <cmath>
 
+#include "report/html_template.h"
 #include "report/plots.h"
 #include "report/quantity.h"
 #include "report/text.h"
 
 namespace ursula::report {
+
+extern const std::string_view statistics_html;  // of web/
+
 namespace {
 
 struct Statistics {
@@ -55,17 +59,18 @@ std::string histogram(const std::vector<double>& values, double largest) {
 }
 
 /// `judged` is the same error at the instants that a check judges, if it does; its maximum is the one shown.
-std::string row(const std::string& what, const std::string& unit, const std::vector<double>& t,
-                const std::vector<double>& values, const Check* judged = nullptr) {
+void addRow(const std::string& what, const std::string& unit, const std::vector<double>& t,
+            const std::vector<double>& values, const Check* judged, std::vector<HtmlValue>& rows) {
   Statistics s = statisticsOf(t, values);
-  if (s.count == 0) return "";
+  if (s.count == 0) return;
   if (judged != nullptr && judged->largest.value > s.largest)
     s.largest = judged->largest.value, s.at = judged->largest.t;
-  return fmt::format(
-      "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
-      "class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td></tr>\n",
-      escaped(what), quantity(s.largest, unit), quantity(s.at, "s"), quantity(s.rms, unit), quantity(s.last, unit),
-      s.largest > 0 ? histogram(values, s.largest) : "");
+  rows.push_back({{"what", what},
+                  {"largest", quantity(s.largest, unit)},
+                  {"at", quantity(s.at, "s")},
+                  {"rms", quantity(s.rms, unit)},
+                  {"last", quantity(s.last, unit)},
+                  {"histogram", s.largest > 0 ? histogram(values, s.largest) : ""}});
 }
 
 }  // namespace
@@ -74,7 +79,7 @@ std::string statisticsTable(const ValidationResult& result) {
   const TimeSeries& series = result.timeseries;
   const std::vector<double>* t = series.find("t_s");
   if (t == nullptr) return "";
-  std::string rows;
+  std::vector<HtmlValue> rows;
   const std::array<std::array<const char*, 4>, 6> columns{
       {{"error_p_m", "Replay, position", "m", "replay.position"},
        {"error_q_rad", "Replay, orientation", "rad", "replay.orientation"},
@@ -86,23 +91,15 @@ std::string statisticsTable(const ValidationResult& result) {
     const auto judged = std::find_if(result.checks.begin(), result.checks.end(),
                                      [name = check](const Check& each) { return each.name == name; });
     if (const std::vector<double>* values = series.find(column))
-      rows += row(what, unit, *t, *values, judged == result.checks.end() ? nullptr : &*judged);
+      addRow(what, unit, *t, *values, judged == result.checks.end() ? nullptr : &*judged, rows);
   }
   const std::vector<Indexed> efforts = indexed(series, "tau"), expected = indexed(series, "simbody_tau");
   for (std::size_t k = 0; k < efforts.size() && k < expected.size(); ++k) {
     std::vector<double> off;
     for (std::size_t i = 0; i < t->size(); ++i) off.push_back((*efforts[k].values)[i] - (*expected[k].values)[i]);
-    rows += row("Effort of motor " + efforts[k].index, prettyUnit(efforts[k].unit), *t, off);
+    addRow("Effort of motor " + efforts[k].index, prettyUnit(efforts[k].unit), *t, off, nullptr, rows);
   }
-  if (rows.empty()) return "";
-  return fmt::format(
-      "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"Error statistics\"><table>\n<caption>Sizes of "
-      "the errors over the instants of the time series, a replay's maximum over its steps. Histograms: half decades, "
-      "the last ends at the "
-      "maximum.</caption>\n<thead><tr><th scope=\"col\">Error</th><th scope=\"col\" class=\"number\">Maximum</th><th "
-      "scope=\"col\" class=\"number\">at</th><th scope=\"col\" class=\"number\">RMS</th><th scope=\"col\" "
-      "class=\"number\">Last</th><th scope=\"col\">Histogram</th></tr></thead>\n<tbody>\n{}</tbody></table></div>",
-      rows);
+  return rows.empty() ? "" : rendered(statistics_html, {{"rows", rows}});
 }
 
 }  // namespace ursula::report

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <stdexcept>
 
 namespace ursula::report {
 namespace {
@@ -68,21 +67,6 @@ std::string number(double value, int digits) {
   if (std::isnan(value)) return "none";
   if (std::isinf(value)) return value > 0 ? "infinite" : "−infinite";
   return fmt::format("{:.{}g}", value, digits);
-}
-
-std::string filled(std::string_view text, const std::vector<std::pair<std::string, std::string>>& values) {
-  std::string result;
-  for (std::size_t open = text.find("{{"); open != std::string_view::npos; open = text.find("{{")) {
-    const std::size_t close = text.find("}}", open);
-    if (close == std::string_view::npos) throw std::logic_error("template with an open {{");
-    const std::string_view key = text.substr(open + 2, close - open - 2);
-    const auto value =
-        std::find_if(values.begin(), values.end(), [key](const auto& pair) { return pair.first == key; });
-    if (value == values.end()) throw std::logic_error("template without a value for " + std::string(key));
-    result.append(text.substr(0, open)).append(value->second);
-    text.remove_prefix(close + 2);
-  }
-  return result.append(text);
 }
 
 std::size_t columnsOf(const std::string& text) {

@@ -17,10 +17,6 @@ std::string urlPath(const std::string& path);
 /// Formats for people: `digits` significant digits; words if the number is not finite.
 std::string number(double value, int digits = 3);
 
-/// Replaces every `{{key}}` in `text` by its value, without searching the value again. Throws std::logic_error for a
-/// key without a value.
-std::string filled(std::string_view text, const std::vector<std::pair<std::string, std::string>>& values);
-
 /// Returns the number of terminal columns of a UTF-8 text, one per character.
 std::size_t columnsOf(const std::string& text);
 

@@ -4,7 +4,7 @@
 # The needs of each verb: COMMAND:PACKAGE, where the package is installed only if the command is missing, or a library's
 # package.
 declare -A needs=(
-  [program]='g++:g++ cmake:cmake ninja:ninja-build libeigen3-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libxsimd-dev libtbb-dev libsqlite3-dev libtinyxml2-dev'
+  [program]='g++:g++ cmake:cmake ninja:ninja-build libeigen3-dev libcli11-dev libtomlplusplus-dev libkainjow-mustache-dev nlohmann-json3-dev libfmt-dev libxsimd-dev libtbb-dev libsqlite3-dev libtinyxml2-dev'
   [test]='libgtest-dev libgmock-dev python3 python3-dev python3-numpy python3-pytest pybind11-dev python3-pip python3-venv patchelf:patchelf pkg-config:pkgconf rsvg-convert:librsvg2-bin octave-cli:octave node:nodejs npm:npm chromium:chromium sbatch:slurm-wlm munged:munge furo python3-myst-parser python3-sphinx'
   [bench]='libbenchmark-dev'
   [format]='git:git clang-format:clang-format'

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "base/csv.h"
+#include "report/html_template.h"
 #include "report/plots.h"
 #include "report/quantity.h"
 #include "report/result_facts.h"
@@ -273,10 +274,27 @@ TEST(Sentence, saysWhatWasFound) {
             "judge by.");
 }
 
-TEST(Text, isFilledOnceAndCompletely) {
-  EXPECT_EQ(report::filled("a{{b}}c", {{"b", "{{d}}"}}), "a{{d}}c");
-  EXPECT_THROW(report::filled("{{b}}", {}), std::logic_error);
-  EXPECT_THROW(report::filled("{{b", {{"b", ""}}), std::logic_error);
+TEST(HtmlTemplate, isFilledOnceAndCompletely) {
+  EXPECT_EQ(report::rendered("a{{b}}c", {{"b", "{{d}}"}}), "a{{d}}c");
+  EXPECT_THROW(report::rendered("{{b}}", {{"c", ""}}), std::logic_error);
+  EXPECT_THROW(report::rendered("{{b", {{"b", ""}}), std::logic_error);
+  EXPECT_THROW(report::rendered("{{#b}}", {{"b", true}}), std::logic_error);
+}
+
+TEST(HtmlTemplate, escapesAsTheRestOfThePagesDoes) {
+  const std::string odd = "<a b='\"&>\n\x01\xff/=`";
+  EXPECT_EQ(report::rendered("{{b}}", {{"b", odd}}), report::escaped(odd));
+  EXPECT_EQ(report::rendered("{{{b}}}", {{"b", odd}}), odd);
+}
+
+TEST(HtmlTemplate, repeatsListsAndLeavesOutWhatDoesNotHold) {
+  const auto row = [](int n) {
+    return report::HtmlValue{{"n", n}, {"odd", n % 2 == 1}, {"word", n == 2 ? "two" : ""}};
+  };
+  EXPECT_EQ(report::rendered("{{#rows}}<{{n}}{{#odd}} odd{{/odd}}{{^word}} no word{{/word}}{{word}}>{{/rows}}",
+                             {{"rows", report::listOf(std::vector<int>{0, 1, 2}, row)}}),
+            "<0 no word><1 odd no word><2two>");
+  EXPECT_EQ(report::rendered("a{{#rows}}<{{n}}>{{/rows}}", {{"rows", std::vector<report::HtmlValue>()}}), "a");
 }
 
 TEST(Text, escapesMarkup) { EXPECT_EQ(report::escaped("<a b='\"&>\n"), "&lt;a b=&#39;&quot;&amp;&gt;\n"); }
