@@ -6,20 +6,18 @@
 #include <cmath>
 
 #include "model/check_catalogue.h"
+#include "report/html_template.h"
 #include "report/page.h"
 #include "report/quantity.h"
 #include "report/sections.h"
-#include "report/text.h"
 
 namespace ursula {
+
+extern const std::string_view prove_matrix_html, prove_checks_html, prove_thresholds_html, prove_random_html;
+
 namespace {
 
-using report::escaped;
-using report::plainNumber;
-
-std::string region(const std::string& label, const std::string& table) {
-  return fmt::format("<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\">{}</div>\n", label, table);
-}
+using report::HtmlValue, report::listOf, report::plainNumber, report::rendered;
 
 Verdict verdictOf(const DefectOutcome& outcome) {
   if (!outcome.shows) return Verdict::not_applicable;
@@ -35,43 +33,32 @@ const char* wordOf(const DefectOutcome& outcome) {
 const char* signOf(const DefectOutcome& outcome) { return !outcome.shows ? "–" : outcome.caught() ? "✓" : "✗"; }
 
 /// A diamond for the first check that caught it, a tick for the others, so that colour is not essential.
-std::string cell(const DefectOutcome& outcome, const std::string& check) {
+HtmlValue cell(const DefectOutcome& outcome, const std::string& check) {
   const auto hit = std::find(outcome.caught_by.begin(), outcome.caught_by.end(), check);
-  if (hit == outcome.caught_by.end()) return "<td class=\"cell\"></td>";
-  return hit == outcome.caught_by.begin() ? "<td class=\"cell hit first\">◆</td>" : "<td class=\"cell hit\">✓</td>";
+  const bool first = hit == outcome.caught_by.begin(), any = hit != outcome.caught_by.end();
+  return {{"mark", !any ? "" : first ? "◆" : "✓"}, {"first", any && first}};
 }
 
-std::string matrixRow(const DefectOutcome& outcome, const std::vector<std::string>& checks) {
-  std::string cells;
-  for (const std::string& check : checks) cells += cell(outcome, check);
-  const std::string remark =
-      outcome.refused.empty() ? "" : fmt::format(" <span class=\"aside\">{}</span>", escaped(outcome.refused));
-  return fmt::format(
-      "<tr class=\"scenario {0}\" data-verdict=\"{0}\"><td><span class=\"badge\"><span aria-hidden=\"true\">{1}</span> "
-      "{2}</span></td><th scope=\"row\">{3}{4}</th><td>{5}</td><td class=\"number\" data-value=\"{6}\">{6} of {7}</td>"
-      "{8}</tr>\n",
-      name(verdictOf(outcome)), signOf(outcome), wordOf(outcome), escaped(outcome.name), remark, escaped(outcome.group),
-      outcome.engines(), outcome.formulations_wanted, cells);
+HtmlValue matrixRow(const DefectOutcome& outcome, const std::vector<std::string>& checks) {
+  return {{"verdict", name(verdictOf(outcome))},
+          {"sign", signOf(outcome)},
+          {"word", wordOf(outcome)},
+          {"defect", outcome.name},
+          {"refused", outcome.refused},
+          {"kind", outcome.group},
+          {"caught", outcome.engines()},
+          {"wanted", outcome.formulations_wanted},
+          {"cells", listOf(checks, [&outcome](const std::string& check) { return cell(outcome, check); })}};
 }
 
 std::string matrix(const std::vector<DefectOutcome>& outcomes) {
   const std::vector<std::string> checks = catchingChecks(outcomes);
-  std::string heads, rows;
-  for (const std::string& check : checks)
-    heads += fmt::format("<th scope=\"col\" class=\"upright\" title=\"{}\"><span>{}</span></th>", escaped(check),
-                         escaped(checkTitle(check)));
+  std::vector<HtmlValue> rows;
   for (const int wanted : {0, 1, 2})  // missed defects first, those without effect last
     for (const DefectOutcome& outcome : outcomes)
-      if ((!outcome.shows ? 2 : outcome.caught() ? 1 : 0) == wanted) rows += matrixRow(outcome, checks);
-  return region(
-      "Defects and the checks that catch them",
-      fmt::format("<table class=\"suite matrix\">\n<caption>Each defect is put alone into a right validation. ✓ "
-                  "a check that fails, as it should; ◆ the first of them in the result's order; empty: it does "
-                  "not see the defect. Formulations: independent computations on which it was caught, of those that "
-                  "must.</caption>\n<thead><tr><th scope=\"col\" class=\"sorts\">Outcome</th><th scope=\"col\" "
-                  "class=\"sorts\">Defect</th><th scope=\"col\" class=\"sorts\">Kind</th><th scope=\"col\" "
-                  "class=\"sorts number\">Formulations</th>{}</tr></thead>\n<tbody>\n{}</tbody></table>",
-                  heads, rows));
+      if ((!outcome.shows ? 2 : outcome.caught() ? 1 : 0) == wanted) rows.push_back(matrixRow(outcome, checks));
+  const auto head = [](const std::string& check) { return HtmlValue{{"check", check}, {"title", checkTitle(check)}}; };
+  return rendered(prove_matrix_html, {{"checks", listOf(checks, head)}, {"rows", rows}}) + "\n";
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -81,80 +68,50 @@ std::string listed(const std::vector<std::string>& names) {
   return names.size() > most ? out + fmt::format("; and {} more", names.size() - most) : out;
 }
 
-std::string checksTable(const std::vector<CheckProof>& checks) {
-  std::string rows;
-  for (const CheckProof& proof : checks) {
-    const Verdict verdict = isNeeded(proof) ? Verdict::pass : Verdict::fail;
-    rows += fmt::format(
-        "<tr class=\"{}\"><td><span class=\"badge\"><span aria-hidden=\"true\">{}</span> {}</span></td><th "
-        "scope=\"row\">"
-        "{} <span class=\"aside\"><code>{}</code></span></th><td class=\"number\">{}</td><td "
-        "class=\"number\">{}</td><td>"
-        "{}</td></tr>\n",
-        name(verdict), isNeeded(proof) ? "✓" : "✗", isNeeded(proof) ? "needed" : "idle",
-        escaped(checkTitle(proof.check)), escaped(proof.check), proof.alone.size(), proof.first.size(),
-        escaped(listed(proof.alone.empty() ? proof.first : proof.alone)));
-  }
-  return region(
-      "Defects for which each check is needed",
-      "<table>\n<caption>The defects that only this check catches, and those that it catches "
-      "first.</caption>\n<thead><tr>"
-      "<th scope=\"col\">Outcome</th><th scope=\"col\">Check</th><th scope=\"col\" class=\"number\">Alone</th>"
-      "<th scope=\"col\" class=\"number\">First</th><th scope=\"col\">Such as</th></tr></thead>\n<tbody>\n" +
-          rows + "</tbody></table>");
+HtmlValue checkRowOf(const CheckProof& proof) {
+  return {{"verdict", name(isNeeded(proof) ? Verdict::pass : Verdict::fail)},
+          {"sign", isNeeded(proof) ? "✓" : "✗"},
+          {"word", isNeeded(proof) ? "needed" : "idle"},
+          {"title", checkTitle(proof.check)},
+          {"check", proof.check},
+          {"alone", proof.alone.size()},
+          {"first", proof.first.size()},
+          {"examples", listed(proof.alone.empty() ? proof.first : proof.alone)}};
+}
+
+HtmlValue kindRow(const SensitivityGroup& group) {
+  return {{"kind", group.name},
+          {"count", group.count},
+          {"unseen", group.unseen},
+          {"best", plainNumber(group.smallest, 2)},
+          {"worst", plainNumber(group.worst.smallest_caught, 2)},
+          {"parameter", group.worst.parameter},
+          {"change", plainNumber(group.largest_change, 2)}};
+}
+
+HtmlValue parameterRow(const Sensitivity& each) {
+  const bool shows = !std::isinf(each.smallest_caught);
+  return {{"parameter", each.parameter},
+          {"caught", shows ? plainNumber(each.smallest_caught, 2) : "does not show"},
+          {"change", shows ? plainNumber(each.torque_change, 2) : "–"}};
 }
 
 std::string thresholds(const std::vector<Sensitivity>& sensitivities) {
   if (sensitivities.empty()) return "";
-  std::string kinds, parameters;
-  for (const SensitivityGroup& group : groupsOf(sensitivities))
-    kinds += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
-        "class=\"number\">{}</td>"
-        "<td class=\"number\">{}</td><td>{}</td><td class=\"number\">{}</td></tr>\n",
-        escaped(group.name), group.count, group.unseen, plainNumber(group.smallest, 2),
-        plainNumber(group.worst.smallest_caught, 2), escaped(group.worst.parameter),
-        plainNumber(group.largest_change, 2));
-  for (const Sensitivity& each : sensitivities) {
-    const bool shows = !std::isinf(each.smallest_caught);
-    parameters +=
-        fmt::format("<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n",
-                    escaped(each.parameter), shows ? plainNumber(each.smallest_caught, 2) : "does not show",
-                    shows ? plainNumber(each.torque_change, 2) : "–");
-  }
-  const char* const number = "<th scope=\"col\" class=\"number\">";
-  return region(
-             "Thresholds by kind",
-             fmt::format(
-                 "<table>\n<caption>Smallest relative error of a parameter that torque.pointwise still "
-                 "catches.</caption>\n<thead><tr><th scope=\"col\">Kind</th>{0}Parameters</th>{0}Not shown</th>"
-                 "{0}Best</th>{0}WorstShare</th><th scope=\"col\">The worst</th>{0}Torque change caught, at most</th>"
-                 "</tr></thead>\n<tbody>\n{1}</tbody></table>",
-                 number, kinds)) +
-         "<details><summary>Every parameter</summary>\n" +
-         region("Thresholds by parameter",
-                fmt::format(
-                    "<table>\n<thead><tr><th scope=\"col\">Parameter</th>{0}Relative error caught</th>{0}Change of "
-                    "torque over the largest</th></tr></thead>\n<tbody>\n{1}</tbody></table>",
-                    number, parameters)) +
-         "</details>";
+  return rendered(prove_thresholds_html, {{"kinds", listOf(groupsOf(sensitivities), kindRow)},
+                                          {"parameters", listOf(sensitivities, parameterRow)}});
 }
 
 std::string randomTable(const RandomOutcomes& random) {
   if (random.runs == 0) return "";
-  std::string rows, items;
-  for (const auto& [check, share] : random.largest_share)
-    rows += fmt::format(
-        "<tr><th scope=\"row\">{} <span class=\"aside\"><code>{}</code></span></th><td class=\"number\">{}</td></tr>\n",
-        escaped(checkTitle(check)), escaped(check), plainNumber(share, 2));
-  for (const std::string& why : random.failed) items += "<li>✗ false alarm: " + escaped(why) + "</li>\n";
-  for (const std::string& why : random.inconclusive) items += "<li>? inconclusive: " + escaped(why) + "</li>\n";
-  return (items.empty() ? "" : "<ul>\n" + items + "</ul>\n") +
-         region("Random valid scenarios",
-                "<table>\n<caption>The largest share of its limit that each check reached.</caption>\n<thead><tr><th "
-                "scope=\"col\">Check</th><th scope=\"col\" class=\"number\">Share of its "
-                "limit</th></tr></thead>\n<tbody>\n" +
-                    rows + "</tbody></table>");
+  const auto row = [](const auto& each) {
+    return HtmlValue{{"title", checkTitle(each.first)}, {"check", each.first}, {"share", plainNumber(each.second, 2)}};
+  };
+  return rendered(prove_random_html, {{"remarks", !random.failed.empty() || !random.inconclusive.empty()},
+                                      {"failed", random.failed},
+                                      {"inconclusive", random.inconclusive},
+                                      {"rows", listOf(random.largest_share, row)}}) +
+         "\n";
 }
 
 std::string sentenceOf(const ProveResult& found) {
@@ -214,9 +171,10 @@ std::string proveHtml(const ProveResult& found) {
   page.sentence = sentenceOf(found);
   page.figures = figuresOf(found);
   if (found.proof)
-    page.sections = {{"defects", "Defects against checks", matrix(found.proof->outcomes)},
-                     {"checks", "Checks", checksTable(found.proof->checks)},
-                     {"thresholds", "Thresholds", thresholds(found.sensitivities)}};
+    page.sections = {
+        {"defects", "Defects against checks", matrix(found.proof->outcomes)},
+        {"checks", "Checks", rendered(prove_checks_html, {{"rows", listOf(found.proof->checks, checkRowOf)}}) + "\n"},
+        {"thresholds", "Thresholds", thresholds(found.sensitivities)}};
   page.sections.push_back({"random", "Random valid scenarios", randomTable(found.random)});
   if (found.proof) page.script = report::index_script;
   return report::pageHtml(page);
