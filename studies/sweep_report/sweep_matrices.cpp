@@ -6,14 +6,17 @@
 #include <map>
 #include <numeric>
 
-#include "report/text.h"
+#include "report/html_template.h"
 #include "studies/sweep_report/sweep_outputs.h"
 #include "studies/sweep_report/sweep_words.h"
 
 namespace ursula {
+
+extern const std::string_view sweep_ties_html, sweep_drivers_html;
+
 namespace {
 
-using report::escaped;
+using report::HtmlValue, report::listOf, report::rendered;
 
 constexpr std::size_t most_bars = 10, most_rows = 20, most_columns = 14;
 
@@ -75,40 +78,30 @@ std::string leftOut(const ShownColumns& shown) {
   return out;
 }
 
-struct Cell {
-  double value = 0;
-  bool told = false;  ///< significant
-  std::string text;
-};
-
-std::string cellHtml(const Cell& cell) {
-  if (std::isnan(cell.value)) return "<td class=\"number none\">–</td>";
-  if (!cell.told) return fmt::format("<td class=\"number none\">{}</td>", cell.text);
-  return fmt::format("<td class=\"number tie{}\" style=\"--depth:{:.0f}%\">{}</td>", cell.value < 0 ? " minus" : "",
-                     5 + 40 * std::min(1.0, std::abs(cell.value)), cell.text);
+/// A number of a table of ties, in words too; `told` if it differs from chance.
+HtmlValue tie(double value, bool told, const std::string& text) {
+  return {{"told", told && !std::isnan(value)},
+          {"minus", value < 0},
+          {"depth", fmt::format("{:.0f}", 5 + 40 * std::min(1.0, std::abs(value)))},
+          {"text", std::isnan(value) ? "–" : text}};
 }
 
-template <class CellOf>
-std::string matrix(const SweepSummary& summary, const ShownColumns& shown, const std::string& label,
-                   const std::string& caption, const CellOf& cell_of) {
-  if (shown.outputs.empty() || shown.parameters.empty()) return "";
-  std::string heads, rows;
-  for (const std::size_t k : shown.outputs)
-    heads += fmt::format("<th scope=\"col\" class=\"number\">{}</th>", breakable(titleOf(summary.outputs[k])));
-  for (const std::size_t p : shown.parameters) {
-    rows += fmt::format("<tr><th scope=\"row\"><code>{}</code></th>", escaped(summary.parameters[p].key));
-    for (const std::size_t k : shown.outputs) rows += cellHtml(cell_of(summary.outputs[k], p));
-    rows += "</tr>\n";
-  }
-  return fmt::format(
-      "<p class=\"aside\">{}{}</p>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table "
-      "class=\"ties\">\n<thead><tr><th scope=\"col\">Number</th>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
-      caption, leftOut(shown), label, heads, rows);
-}
-
-std::string bar(double share) {
-  return fmt::format("<span class=\"bar\" aria-hidden=\"true\"><span style=\"width:{:.1f}%\"></span></span>",
-                     100 * std::clamp(share, 0.0, 1.0));
+/// `tie_of` returns the tie of an output with a parameter.
+template <class TieOf>
+std::string tiesTable(const SweepSummary& summary, const ShownColumns& shown, const char* label,
+                      const std::string& caption, const TieOf& tie_of, const std::vector<HtmlValue>& without = {}) {
+  const auto head = [&summary](std::size_t k) { return breakable(titleOf(summary.outputs[k])); };
+  const auto row = [&](std::size_t p) {
+    const auto cell = [&](std::size_t k) { return tie_of(summary.outputs[k].relations[p]); };
+    return HtmlValue{{"key", summary.parameters[p].key}, {"cells", listOf(shown.outputs, cell)}};
+  };
+  return rendered(sweep_ties_html, {{"table", !shown.outputs.empty() && !shown.parameters.empty()},
+                                    {"caption", caption},
+                                    {"left_out", leftOut(shown)},
+                                    {"label", label},
+                                    {"heads", listOf(shown.outputs, head)},
+                                    {"rows", listOf(shown.parameters, row)},
+                                    {"without", without}});
 }
 
 /// The share of numbers acting together, if the indices are those of independent numbers.
@@ -141,41 +134,37 @@ std::string driversTable(const SweepSummary& summary) {
     const Relation &of_a = output.relations[a], &of_b = output.relations[b];
     return std::pair(strength(of_a), sizeOf(of_a)) > std::pair(strength(of_b), sizeOf(of_b));
   });
-  std::string rows;
-  for (std::size_t place = 0; place < std::min(order.size(), most_bars); ++place) {
-    const Relation& relation = output.relations[order[place]];
-    const bool by_index = output.no_index == NoIndex::none;
-    rows += fmt::format(
-        "<tr><th scope=\"row\"><code>{}</code></th><td class=\"bars\">{}</td><td class=\"number\">{}</td>"
-        "<td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td></tr>\n",
-        escaped(summary.parameters[order[place]].key),
-        bar(by_index ? relation.first_order : std::abs(relation.spearman)), shareNumber(relation.first_order),
-        signedNumber(relation.spearman), signedNumber(relation.pearson),
-        strength(relation) > 0 ? "" : "no more than chance");
-  }
   const std::string more =
       order.size() > most_bars ? fmt::format(" The strongest {} of {} numbers.", most_bars, order.size()) : "";
-  return fmt::format(
-      "<p class=\"aside\"><b>{}</b>: the share of its variance that each number explains alone (first-order Sobol’ "
-      "index), "
-      "and its correlations.{}{}</p>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"Strongest "
-      "drivers\"><table class=\"drivers\">\n<thead><tr><th scope=\"col\">Number</th><th scope=\"col\">{}</th><th "
-      "scope=\"col\" class=\"number\">Index</th><th scope=\"col\" class=\"number\">Rank correlation</th><th "
-      "scope=\"col\" class=\"number\">Linear correlation</th><th scope=\"col\"><span class=\"unseen\">Remark</span>"
-      "</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
-      escaped(titleOf(output)), togetherWords(summary, output), more,
-      output.no_index == NoIndex::none ? "Share" : "Size of the rank correlation", rows);
+  order.resize(std::min(order.size(), most_bars));
+  const bool has_index = output.no_index == NoIndex::none;
+  const auto row = [&](std::size_t p) {
+    const Relation& relation = output.relations[p];
+    const double share = has_index ? relation.first_order : std::abs(relation.spearman);
+    return HtmlValue{{"key", summary.parameters[p].key},
+                     {"width", fmt::format("{:.1f}", 100 * std::clamp(share, 0.0, 1.0))},
+                     {"index", shareNumber(relation.first_order)},
+                     {"rank", signedNumber(relation.spearman)},
+                     {"linear", signedNumber(relation.pearson)},
+                     {"remark", strength(relation) > 0 ? "" : "no more than chance"}};
+  };
+  return rendered(sweep_drivers_html, {{"output", titleOf(output)},
+                                       {"together", togetherWords(summary, output)},
+                                       {"more", more},
+                                       {"has_index", has_index},
+                                       {"rows", listOf(order, row)}}) +
+         "\n";
 }
 
 std::string correlationTable(const SweepSummary& summary) {
-  return matrix(summary, shownOf(summary), "Correlations",
-                "Rank correlations (Spearman), from −1 to +1: a deeper colour is stronger; blue rises, orange falls. "
-                "Pale numbers do not differ from chance: they are below the bound that one in a hundred sweeps of "
-                "unrelated numbers would exceed anywhere.",
-                [](const SweepOutput& output, std::size_t p) {
-                  const Relation& relation = output.relations[p];
-                  return Cell{relation.spearman, relation.correlates, signedNumber(relation.spearman)};
-                });
+  return tiesTable(
+      summary, shownOf(summary), "Correlations",
+      "Rank correlations (Spearman), from −1 to +1: a deeper colour is stronger; blue rises, orange falls. "
+      "Pale numbers do not differ from chance: they are below the bound that one in a hundred sweeps of "
+      "unrelated numbers would exceed anywhere.",
+      [](const Relation& relation) {
+        return tie(relation.spearman, relation.correlates, signedNumber(relation.spearman));
+      });
 }
 
 std::string indexTable(const SweepSummary& summary) {
@@ -186,12 +175,12 @@ std::string indexTable(const SweepSummary& summary) {
     const SweepOutput& output = summary.outputs[k];
     std::string& names = without[output.no_index];
     if (output.no_index == NoIndex::none) with.push_back(k);
-    if (output.no_index != NoIndex::none) names += (names.empty() ? "" : ", ") + escaped(titleOf(output));
+    if (output.no_index != NoIndex::none) names += (names.empty() ? "" : ", ") + titleOf(output);
   }
   without.erase(NoIndex::none);
-  std::string reasons;
-  for (const auto& [reason, names] : without)
-    reasons += fmt::format("<p class=\"aside\">None of {}: {}.</p>\n", names, reasonOf(reason));
+  const auto reason = [](const auto& each) {
+    return HtmlValue{{"outputs", each.second}, {"reason", reasonOf(each.first)}};
+  };
   const bool alone = with.size() == 1 && summary.outputs[with[0]].kind == OutputKind::not_passed;
   shown.outputs = alone ? std::vector<std::size_t>() : with;
   const std::string how =
@@ -199,13 +188,13 @@ std::string indexTable(const SweepSummary& summary) {
           ? "They are the exact main effects over the complete grid."
           : "They are estimated from the given points (Plischke, Borgonovo, Smith 2013), less the bias of finite "
             "classes. Pale numbers do not differ from chance.";
-  return matrix(summary, shown, "First-order indices",
-                "First-order Sobol’ indices: the share of an output’s variance that each number explains alone. " + how,
-                [](const SweepOutput& output, std::size_t p) {
-                  const Relation& relation = output.relations[p];
-                  return Cell{relation.first_order, relation.acts, shareNumber(relation.first_order)};
-                }) +
-         reasons;
+  return tiesTable(
+      summary, shown, "First-order indices",
+      "First-order Sobol’ indices: the share of an output’s variance that each number explains alone. " + how,
+      [](const Relation& relation) {
+        return tie(relation.first_order, relation.acts, shareNumber(relation.first_order));
+      },
+      listOf(without, reason));
 }
 
 }  // namespace ursula

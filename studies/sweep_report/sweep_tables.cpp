@@ -6,37 +6,24 @@
 #include <cmath>
 #include <numeric>
 
+#include "report/html_template.h"
 #include "report/quantity.h"
 #include "report/sections.h"
-#include "report/text.h"
 #include "studies/sweep_report/sweep_words.h"
 
 namespace ursula {
+
+extern const std::string_view sweep_outputs_html, sweep_worst_html, sweep_parameters_html, sweep_paste_html;
+
 namespace {
 
-using report::escaped;
+using report::HtmlValue, report::listOf, report::rendered;
 
 constexpr std::size_t most_parameter_columns = 5;
 
-std::string number(const std::string& text) { return "<td class=\"number\">" + escaped(text) + "</td>"; }
-
-std::string head(const std::string& text, bool is_number = true) {
-  return fmt::format("<th scope=\"col\"{}>{}</th>", is_number ? " class=\"number\"" : "", text);
-}
-
-std::string table(const std::string& label, const std::string& caption, const std::string& heads,
-                  const std::string& rows) {
-  return fmt::format(
-      "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table>\n<caption>{}</caption>\n<thead><tr>"
-      "{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
-      label, caption, heads, rows);
-}
-
-/// Links to the point's row, if it has one.
-std::string pointLink(const SweepSummary& summary, std::int64_t id) {
-  const bool listed =
-      std::any_of(summary.worst.begin(), summary.worst.end(), [id](const WorstPoint& point) { return point.id == id; });
-  return listed ? fmt::format("<a href=\"#point-{0}\">{0}</a>", id) : std::to_string(id);
+bool hasRow(const SweepSummary& summary, std::int64_t id) {
+  return std::any_of(summary.worst.begin(), summary.worst.end(),
+                     [id](const WorstPoint& point) { return point.id == id; });
 }
 
 /// The parameters that drive the primary output most; all if they are few.
@@ -59,14 +46,10 @@ std::string parameterText(const SweepParameter& parameter, double value) {
   return report::plainNumber(is_zero ? 0 : value, 1 + report::digitsToTell(all.min, all.max));
 }
 
-std::string badge(const std::string& verdict) {
-  const Verdict shown = verdict == "pass"    ? Verdict::pass
-                        : verdict == "fail"  ? Verdict::fail
-                        : verdict == "error" ? Verdict::fail
-                                             : Verdict::inconclusive;
-  if (verdict == name(shown)) return fmt::format("<span class=\"{}\">{}</span>", verdict, report::verdictBadge(shown));
-  return fmt::format("<span class=\"{}\"><span class=\"badge\">{}</span></span>", name(shown),
-                     escaped(verdictWords(verdict)));
+Verdict shownVerdict(const std::string& verdict) {
+  return verdict == "pass"                         ? Verdict::pass
+         : verdict == "fail" || verdict == "error" ? Verdict::fail
+                                                   : Verdict::inconclusive;
 }
 
 /// Says why the point is one of the worst.
@@ -79,83 +62,78 @@ std::string whyOf(const SweepSummary& summary, const WorstPoint& point) {
   return fmt::format("{}: {}", titleOf(output), saidOf(output, point.score));
 }
 
+HtmlValue outputRow(const SweepSummary& summary, const SweepOutput& output) {
+  const Spread& s = output.spread;
+  const auto text = [&output](double value) { return valueOf(output, value); };
+  return {{"title", titleOf(output)},
+          {"points", grouped(static_cast<std::int64_t>(s.count))},
+          {"constant", s.constant},
+          {"min", text(s.min)},
+          {"low", text(s.low)},
+          {"median", text(s.median)},
+          {"high", text(s.high)},
+          {"max", text(s.max)},
+          {"listed", hasRow(summary, output.worst_point)},
+          {"worst", output.worst_point},
+          {"mean", text(s.mean)},
+          {"sd", report::quantity(s.sd, output.unit)}};
+}
+
+HtmlValue worstRow(const SweepSummary& summary, const WorstPoint& point, const std::vector<std::size_t>& shown) {
+  const Verdict verdict = shownVerdict(point.verdict);
+  const auto value = [&](std::size_t p) { return parameterText(summary.parameters[p], point.parameters[p]); };
+  return {{"id", point.id},
+          {"verdict", name(verdict)},
+          {"badge", point.verdict == name(verdict) ? report::verdictBadge(verdict) : ""},
+          {"words", verdictWords(point.verdict)},
+          {"why", whyOf(summary, point)},
+          {"values", listOf(shown, value)},
+          {"command", showCommand(summary, point.id)}};
+}
+
+HtmlValue parameterRow(const SweepParameter& parameter) {
+  const Spread& s = parameter.spread;
+  return {{"key", parameter.key},
+          {"levels", parameter.levels > most_levels ? fmt::format("> {}", grouped(most_levels))
+                                                    : grouped(static_cast<std::int64_t>(parameter.levels))},
+          {"min", parameterText(parameter, s.min)},
+          {"mean", parameterText(parameter, s.mean)},
+          {"max", parameterText(parameter, s.max)},
+          {"sd", std::isnan(s.sd) ? "–" : report::plainNumber(s.sd, 3)}};
+}
+
 }  // namespace
 
 std::string outputsTable(const SweepSummary& summary) {
   if (summary.outputs.empty()) return "";
-  std::string rows;
-  for (const SweepOutput& output : summary.outputs) {
-    const Spread& s = output.spread;
-    rows += fmt::format("<tr><th scope=\"row\">{}</th>", escaped(titleOf(output)));
-    rows += number(grouped(static_cast<std::int64_t>(s.count)));
-    if (s.constant) {
-      rows += number(valueOf(output, s.median)) + "<td colspan=\"7\">the same at every point</td></tr>\n";
-      continue;
-    }
-    for (const double value : {s.min, s.low, s.median, s.high, s.max}) rows += number(valueOf(output, value));
-    rows += "<td class=\"number\">" + pointLink(summary, output.worst_point) + "</td>";
-    rows += number(valueOf(output, s.mean)) + number(report::quantity(s.sd, output.unit)) + "</tr>\n";
-  }
-  std::string heads = head("Output", false);
-  for (const char* each : {"Points", "Min", "5 %", "Median", "95 %", "Max", "Worst point", "Mean", "SD"})
-    heads += head(each);
-  return table("Outputs",
-               summary.identity.what == "validate"
-                   ? "Checks as shares of their limits: up to 1 is passed. Points: those that have a value."
-                   : "The largest of each motion; sin θ the smallest. Points: those that have a value.",
-               heads, rows);
+  const auto row = [&summary](const SweepOutput& output) { return outputRow(summary, output); };
+  return rendered(sweep_outputs_html,
+                  {{"validates", summary.identity.what == "validate"}, {"rows", listOf(summary.outputs, row)}}) +
+         "\n";
 }
 
 std::string worstTable(const SweepSummary& summary) {
   if (summary.worst.empty()) return "";
   const std::vector<std::size_t> shown = parametersToShow(summary);
-  std::string rows;
-  for (const WorstPoint& point : summary.worst) {
-    rows += fmt::format(
-        "<tr id=\"point-{0}\"><th scope=\"row\" class=\"number\">{0}</th><td>{1}</td><td "
-        "class=\"reason\">{2}</td>",
-        point.id, badge(point.verdict), escaped(whyOf(summary, point)));
-    for (const std::size_t p : shown) rows += number(parameterText(summary.parameters[p], point.parameters[p]));
-    rows += fmt::format("<td class=\"command\"><code>{}</code></td></tr>\n", escaped(showCommand(summary, point.id)));
-  }
-  std::string heads = head("Point") + head("Verdict", false) + head("Why", false);
-  for (const std::size_t p : shown) heads += head("<code>" + breakable(summary.parameters[p].key) + "</code>");
   const std::size_t more = summary.parameters.size() - shown.size();
-  return table(
-      "Worst points",
-      "Errors first, then failures, then the largest. The command writes a point’s scenario, to be looked at by "
-      "itself." +
-          (more > 0 ? fmt::format(" {} further numbers are in that scenario.", more) : std::string()),
-      heads + head("Its scenario", false), rows);
+  const auto key = [&summary](std::size_t p) { return breakable(summary.parameters[p].key); };
+  const auto row = [&](const WorstPoint& point) { return worstRow(summary, point, shown); };
+  return rendered(sweep_worst_html, {{"more", more > 0 ? std::to_string(more) : ""},
+                                     {"keys", listOf(shown, key)},
+                                     {"rows", listOf(summary.worst, row)}}) +
+         "\n";
 }
 
 std::string parametersTable(const SweepSummary& summary) {
   if (summary.points_done == 0) return "";
-  std::string rows;
-  for (const SweepParameter& parameter : summary.parameters) {
-    rows += fmt::format("<tr><th scope=\"row\"><code>{}</code></th>", escaped(parameter.key));
-    rows += number(parameter.levels > most_levels ? fmt::format("> {}", grouped(most_levels))
-                                                  : grouped(static_cast<std::int64_t>(parameter.levels)));
-    for (const double value : {parameter.spread.min, parameter.spread.mean, parameter.spread.max})
-      rows += number(parameterText(parameter, value));
-    rows += number(std::isnan(parameter.spread.sd) ? "–" : report::plainNumber(parameter.spread.sd, 3));
-    rows += "</tr>\n";
-  }
-  std::string heads = head("Number", false);
-  for (const char* each : {"Different values", "Min", "Mean", "Max", "SD"}) heads += head(each);
-  const std::string all =
-      table("Numbers that were varied", "The values of the points, not the requested ones.", heads, rows);
-  if (summary.parameters.size() <= 12) return all;
-  return fmt::format("<details class=\"group\"><summary>All {} numbers</summary>{}</details>\n",
-                     summary.parameters.size(), all);
+  return rendered(sweep_parameters_html, {{"folded", summary.parameters.size() > 12},
+                                          {"count", summary.parameters.size()},
+                                          {"rows", listOf(summary.parameters, parameterRow)}});
 }
 
 std::string pasteBox(const SweepSummary& summary) {
   if (summary.points_done == 0) return "";
-  return fmt::format(
-      "<p class=\"aside\">Markdown, for a letter or an issue.</p>\n<pre class=\"paste\" tabindex=\"0\" "
-      "role=\"region\" aria-label=\"Table to paste\">{}</pre>\n",
-      escaped(markdownOf(summary)));
+  return rendered(sweep_paste_html, {{"markdown", markdownOf(summary)}}) + "\n";
 }
 
 }  // namespace ursula
