@@ -3,16 +3,21 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "report/html_template.h"
 #include "report/page.h"
+#include "report/sections.h"
 #include "report/text.h"
 #include "studies/audit/audit.h"
 #include "studies/audit/remarks.h"
 
 namespace ursula {
+
+extern const std::string_view audit_formulas_html, audit_method_html;
+
 namespace audit {
 namespace {
 
-using report::escaped;
+using report::escaped, report::HtmlValue, report::listOf, report::rendered;
 
 std::ptrdiff_t countOf(const Audit& result, AuditRow::Kind kind) {
   return std::count_if(result.rows.begin(), result.rows.end(),
@@ -31,57 +36,46 @@ std::string formula(const std::string& text) {
   return mathml.contains(text) ? mathml[text].get<std::string>() : escaped(text);
 }
 
-std::string table(const std::string& caption, const std::vector<const char*>& heads, const std::string& rows) {
-  if (rows.empty()) return "";
-  std::string head;
-  for (const char* each : heads) head += fmt::format("<th scope=\"col\">{}</th>", each);
-  return fmt::format(
-      "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table class=\"formulas\">\n<caption>{0}"
-      "</caption>\n<thead><tr>{1}</tr></thead>\n<tbody>\n{2}</tbody></table></div>",
-      caption, head, rows);
+/// Cells are HTML.
+HtmlValue line(const std::string& head, const std::vector<std::string>& cells) {
+  return {{"head", head}, {"cells", cells}};
 }
 
-std::string line(const std::string& head, const std::vector<std::string>& cells) {
-  std::string out = fmt::format("<tr><th scope=\"row\">{}</th>", escaped(head));
-  for (const std::string& cell : cells) out += "<td>" + cell + "</td>";
-  return out + "</tr>\n";
+std::string table(const char* caption, const std::vector<std::string>& heads, const std::vector<HtmlValue>& lines,
+                  const std::vector<HtmlValue>& pairs = {}) {
+  if (lines.empty() && pairs.empty()) return "";
+  return rendered(audit_formulas_html, {{"caption", caption}, {"heads", heads}, {"pairs", pairs}, {"lines", lines}});
 }
-
-// The badge has a sign and a word, so that it does not depend on colour.
-const char* const fails_badge = "<span class=\"badge fail\"><span aria-hidden=\"true\">✗</span> ";
-const char* const holds_badge = "<span class=\"badge pass\"><span aria-hidden=\"true\">✓</span> ";
-
-std::string signedResidual(const char* badge, const std::string& text) { return badge + escaped(text) + "</span>"; }
 
 /// Both versions, one below the other, each with its residual.
-std::string pairOf(const AuditRow& row) {
-  return fmt::format(
-      "<tr><th scope=\"rowgroup\" rowspan=\"2\">{}</th><td>printed</td><td>{}</td><td>{}</td><td "
-      "rowspan=\"2\">{}</td>"
-      "</tr>\n<tr><td>holds</td><td>{}</td><td>{}</td></tr>\n",
-      escaped(row.equation), formula(row.printed), signedResidual(fails_badge, residualOf(row.residual_printed, row)),
-      escaped(row.note), formula(row.holds), signedResidual(holds_badge, number(row.residual_holds)));
+HtmlValue pairOf(const AuditRow& row) {
+  return {{"equation", row.equation},
+          {"printed", formula(row.printed)},
+          {"residual_printed", report::badge(Verdict::fail, residualOf(row.residual_printed, row))},
+          {"note", row.note},
+          {"holds", formula(row.holds)},
+          {"residual_holds", report::badge(Verdict::pass, number(row.residual_holds))}};
 }
 
 std::string corrected(const Audit& result, AuditRow::Kind kind, const char* caption) {
-  std::string rows;
+  std::vector<HtmlValue> pairs;
   for (const AuditRow& row : result.rows)
-    if (row.kind == kind) rows += pairOf(row);
-  return table(caption, {"Equation", "Reading", "Formula", "Residual", "Note"}, rows);
+    if (row.kind == kind) pairs.push_back(pairOf(row));
+  return table(caption, {"Equation", "Reading", "Formula", "Residual", "Note"}, {}, pairs);
 }
 
 std::string holding(const Audit& result) {
-  std::string rows;
+  std::vector<HtmlValue> lines;
   for (const AuditRow& row : result.rows)
     if (row.kind == AuditRow::Kind::holds)
-      rows +=
-          line(row.equation, {formula(row.printed), signedResidual(holds_badge, residualOf(row.residual_printed, row)),
-                              escaped(row.note)});
+      lines.push_back(
+          line(row.equation, {formula(row.printed), report::badge(Verdict::pass, residualOf(row.residual_printed, row)),
+                              escaped(row.note)}));
   return table("Formulas that hold as printed. Definitions are not measured by themselves.",
-               {"Equation", "As printed", "Residual", "Note"}, rows);
+               {"Equation", "As printed", "Residual", "Note"}, lines);
 }
 
-std::string effectLine(const AuditRow& row, double duration) {
+HtmlValue effectLine(const AuditRow& row, double duration) {
   const AuditEffect& effect = *row.effect;
   if (!effect.refused.empty()) return line(row.equation, {"none: " + escaped(effect.refused), "", "", "", ""});
   return line(row.equation, {number(effect.torque_error), number(effect.relative_error), instant(effect.to_1_mm),
@@ -89,34 +83,25 @@ std::string effectLine(const AuditRow& row, double duration) {
 }
 
 std::string effects(const Audit& result) {
-  std::string rows;
+  std::vector<HtmlValue> lines;
   for (const AuditRow& row : result.rows)
-    if (row.effect) rows += effectLine(row, result.duration);
-  for (const AuditRow& row : result.together) rows += effectLine(row, result.duration);
+    if (row.effect) lines.push_back(effectLine(row, result.duration));
+  for (const AuditRow& row : result.together) lines.push_back(effectLine(row, result.duration));
   return table("Each misreading alone, put into the whole algorithm; its torques replayed open loop on a Simbody model",
                {"Put into the algorithm", "Torque error, N·m", "Over the largest", "1 mm off after", "10 mm off after",
                 "At the end"},
-               rows);
+               lines);
 }
 
 std::string besides(const Audit& result) {
-  std::string rows;
-  for (const AuditRemark& remark : result.remarks)
-    rows += line(remark.place, {escaped(remark.says), escaped(remark.found)});
-  return table("Further statements of the text", {"Place", "Says", "Found"}, rows);
+  const auto line_of = [](const AuditRemark& remark) {
+    return line(remark.place, {escaped(remark.says), escaped(remark.found)});
+  };
+  return table("Further statements of the text", {"Place", "Says", "Found"}, listOf(result.remarks, line_of));
 }
 
 std::string method(const Audit& result) {
-  std::string instants;
-  for (const double t : result.instants) instants += fmt::format("{}{}", instants.empty() ? "" : ", ", t);
-  return fmt::format(
-      "<p>The reference does not use the paper's formulas. Points come from rigid motion and intersecting circles, "
-      "rates "
-      "from extrapolated central differences in 50-digit arithmetic, torques from virtual work. A residual is the "
-      "largest component of a formula's mismatch with this reference, over the legs and t = {} s, with exact inputs. "
-      "If a formula holds, some 1e-40 is left: the rounding of the differences.</p>\n<p>Our source is a scan: it does "
-      "not tell whether an error is the paper's or the scan's. To reproduce: <code>ursula audit --out DIR</code></p>",
-      instants);
+  return rendered(audit_method_html, {{"instants", fmt::format("{}", fmt::join(result.instants, ", "))}});
 }
 
 }  // namespace

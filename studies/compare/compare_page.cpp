@@ -8,20 +8,24 @@
 #include <numeric>
 
 #include "base/output_folder.h"
+#include "report/html_template.h"
 #include "report/page.h"
 #include "report/plots.h"
 #include "report/quantity.h"
 #include "report/sections.h"
-#include "report/text.h"
 #include "report/written_files.h"
 
 namespace ursula {
+
+extern const std::string_view compare_channels_html, compare_table_html, compare_missing_html;
+
 namespace {
 
-using report::escaped;
+using report::HtmlValue;
 using report::Line;
 using report::Plot;
 using report::quantity;
+using report::rendered;
 using report::Stroke;
 
 // These limits keep a page of a hundred channels below 3 MB. They bound the points in all; only the worst channels have
@@ -89,44 +93,38 @@ std::vector<double> less(const std::vector<double>& a, const std::vector<double>
   return out;
 }
 
-std::string table(const std::vector<ChannelComparison>& channels, const std::vector<std::size_t>& order) {
-  std::string rows;
-  for (const std::size_t k : order) {
-    const ChannelComparison& c = channels[k];
-    const std::string unit = unitOf(c.name);
-    rows += fmt::format("<tr class=\"{}\"><td>{}</td><th scope=\"row\"><a href=\"#channel-{}\">{}</a></th>",
-                        name(c.verdict), report::verdictBadge(c.verdict), k, escaped(c.name));
-    for (const std::string& cell : {quantity(c.max_error, unit), quantity(c.max_at, "s"), quantity(c.rms_error, unit),
-                                    quantity(c.final_error, unit), quantity(c.tolerance, unit)})
-      rows += fmt::format("<td class=\"number\">{}</td>", escaped(cell));
-    rows += "</tr>\n";
-  }
-  std::string heads = "<th scope=\"col\">Verdict</th><th scope=\"col\">Channel</th>";
-  for (const char* head : {"Maximum", "at", "RMS", "Last", "Tolerance"})
-    heads += fmt::format("<th scope=\"col\" class=\"number\">{}</th>", head);
-  return fmt::format(
-      "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"Every channel\"><table>\n<caption>Deviations of "
-      "the test from the reference at the same instants, the worst channel first.</caption>\n<thead><tr>{}</tr></thead>"
-      "\n<tbody>\n{}</tbody></table></div>",
-      heads, rows);
+HtmlValue channelRow(const ChannelComparison& c, std::size_t index) {
+  const std::string unit = unitOf(c.name);
+  return {{"verdict", name(c.verdict)},
+          {"badge", report::verdictBadge(c.verdict)},
+          {"index", index},
+          {"channel", c.name},
+          {"largest", quantity(c.max_error, unit)},
+          {"at", quantity(c.max_at, "s")},
+          {"rms", quantity(c.rms_error, unit)},
+          {"last", quantity(c.final_error, unit)},
+          {"tolerance", quantity(c.tolerance, unit)}};
 }
 
-std::string channelHtml(const ChannelComparison& channel, const ChannelCharts& charts, std::size_t index,
-                        std::size_t place) {
+HtmlValue channelGroup(const ChannelComparison& channel, const ChannelCharts& charts, std::size_t index,
+                       std::size_t place) {
   const report::Drawing drawing = place < drawn_without_script ? report::Drawing::with : report::Drawing::without;
-  const bool open = place < open_at_first || channel.verdict == Verdict::fail;
-  return fmt::format(
-      "<details class=\"group {0}\" id=\"channel-{1}\"{2}><summary>{3} <span class=\"title\">{4}</span> <span "
-      "class=\"aside\">{5}</span></summary>\n<div class=\"charts\">{6}{7}</div></details>\n",
-      name(channel.verdict), index, open ? " open" : "", report::verdictBadge(channel.verdict), escaped(channel.name),
-      shareText(channel), report::figureHtml(charts.curves, 2 * place, "h3", drawing),
-      report::figureHtml(charts.difference, 2 * place + 1, "h3", drawing));
+  return {{"verdict", name(channel.verdict)},
+          {"index", index},
+          {"open", place < open_at_first || channel.verdict == Verdict::fail},
+          {"badge", report::verdictBadge(channel.verdict)},
+          {"channel", channel.name},
+          {"share", shareText(channel)},
+          {"charts", report::figureHtml(charts.curves, 2 * place, "h3", drawing) +
+                         report::figureHtml(charts.difference, 2 * place + 1, "h3", drawing)}};
 }
 
-std::string missing(const char* side, const std::vector<std::string>& names) {
-  std::string items;
-  for (const std::string& each : names) items += fmt::format("<li><code>{}</code></li>", escaped(each));
-  return items.empty() ? "" : fmt::format("<h3>Only in the {}</h3>\n<ul class=\"names\">{}</ul>\n", side, items);
+std::string missing(const Comparison& comparison) {
+  std::vector<HtmlValue> sides;
+  for (const auto& [side, names] :
+       {std::pair("reference", comparison.only_in_reference), {"test", comparison.only_in_test}})
+    if (!names.empty()) sides.push_back({{"side", side}, {"names", names}});
+  return rendered(compare_missing_html, {{"sides", sides}});
 }
 
 std::vector<std::string> linesOf(const std::string& text) {
@@ -191,18 +189,18 @@ std::string comparisonHtml(const Comparison& comparison, const std::vector<Chann
   page.sentence = comparisonSentence(comparison);
   page.remarks = linesOf(comparisonRemarks(comparison));
   page.script = report::charts_script;
-  std::string channels;
+  std::vector<HtmlValue> groups, rows;
   const std::vector<std::size_t> order = worstFirst(comparison.channels);
   for (std::size_t place = 0; place < order.size(); ++place) {
     const std::size_t k = order[place];
-    channels += channelHtml(comparison.channels[k], charts.at(k), k, place);
+    groups.push_back(channelGroup(comparison.channels[k], charts.at(k), k, place));
+    rows.push_back(channelRow(comparison.channels[k], k));
     page.charts.push_back(charts.at(k).curves);
     page.charts.push_back(charts.at(k).difference);
   }
-  page.sections = {{"channels", "Channels", channels},
-                   {"table", "In numbers", order.empty() ? "" : table(comparison.channels, order)},
-                   {"missing", "Not compared",
-                    missing("reference", comparison.only_in_reference) + missing("test", comparison.only_in_test)}};
+  page.sections = {{"channels", "Channels", rendered(compare_channels_html, {{"channels", groups}})},
+                   {"table", "In numbers", rows.empty() ? "" : rendered(compare_table_html, {{"channels", rows}})},
+                   {"missing", "Not compared", missing(comparison)}};
   page.footer =
       "<p>The same in numbers: <a href=\"compare.csv\">compare.csv</a>, <a href=\"junit.xml\">junit.xml</a>.</p>";
   return report::pageHtml(page);

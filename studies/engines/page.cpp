@@ -3,51 +3,41 @@
 #include <algorithm>
 #include <array>
 
+#include "report/html_template.h"
 #include "report/page.h"
 #include "report/quantity.h"
-#include "report/text.h"
 #include "studies/engines/side_by_side.h"
 
 namespace ursula {
+
+extern const std::string_view engines_efforts_html, engines_in_time_html, engines_sentences_html;
+
 namespace {
 
-using report::escaped, report::plainNumber, report::quantity;
+using report::HtmlValue, report::quantity, report::rendered;
 
-std::string region(const std::string& label, const std::string& table) {
-  return fmt::format("<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\">{}</div>\n", label, table);
-}
+std::string nameOf(const EngineResult& engine) { return fmt::format("{} {}", engine.kind->name, engine.version); }
 
-std::string head(const std::string& text, bool is_number = true) {
-  return fmt::format("<th scope=\"col\"{}>{}</th>", is_number ? " class=\"number\"" : "", escaped(text));
-}
-
-std::string cell(const std::string& text) { return fmt::format("<td class=\"number\">{}</td>", escaped(text)); }
-
-std::string table(const std::string& caption, const std::string& heads, const std::string& rows) {
-  return region(caption, fmt::format("<table>\n<caption>{}</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>"
-                                     "</table>",
-                                     escaped(caption), heads, rows));
+HtmlValue effortRow(const EngineResult& engine, const RecipeResult& each) {
+  return {{"engine", nameOf(engine)},
+          {"recipe", inWords(each.recipe)},
+          {"obvious", each.recipe == engine.kind->obvious},
+          {"effort", errorText(each.error)},
+          {"power", errorText(each.power)},
+          {"gap", quantity(engine.gap, "m")},
+          {"time", quantity(each.seconds, "s")}};
 }
 
 std::string effortsTable(const SideBySide& found) {
-  std::string rows;
+  std::vector<HtmlValue> rows;
   for (const EngineResult& engine : found.engines)
-    for (const RecipeResult& each : engine.recipes)
-      rows += fmt::format(
-          "<tr><th scope=\"row\">{} {}</th><td>{}{}</td>{}{}{}{}</tr>\n", escaped(engine.kind->name),
-          escaped(engine.version), escaped(inWords(each.recipe)),
-          each.recipe == engine.kind->obvious ? " <span class=\"aside\">what its users call first</span>" : "",
-          cell(errorText(each.error)), cell(errorText(each.power)), cell(quantity(engine.gap, "m")),
-          cell(quantity(each.seconds, "s")));
-  return rows.empty()
-             ? ""
-             : table(fmt::format("Efforts against the NOC's at {} instants, over the largest effort, {}; power "
-                                 "of the motors, over the largest; gap of the loops as placed; time a pose, as "
-                                 "measured here.",
-                                 found.instants, largestText(found)),
-                     head("Engine", false) + head("Recipe", false) + head("Effort off by") + head("Power off by") +
-                         head("Gap") + head("Time"),
-                     rows);
+    for (const RecipeResult& each : engine.recipes) rows.push_back(effortRow(engine, each));
+  if (rows.empty()) return "";
+  const std::string caption = fmt::format(
+      "Efforts against the NOC's at {} instants, over the largest effort, {}; power of the motors, over "
+      "the largest; gap of the loops as placed; time a pose, as measured here.",
+      found.instants, largestText(found));
+  return rendered(engines_efforts_html, {{"caption", caption}, {"rows", rows}}) + "\n";
 }
 
 std::string settingsText(const Rigidity& rigidity) {
@@ -56,41 +46,39 @@ std::string settingsText(const Rigidity& rigidity) {
   return out;
 }
 
-std::string timeSteppingRow(const EngineResult& engine, const TimeSteppingResult& each) {
-  const std::string stopped =
-      each.gave_up.empty()
-          ? ""
-          : fmt::format(" <span class=\"aside\">gave up after {} steps: {}</span>", each.steps, escaped(each.gave_up));
-  return fmt::format("<tr><th scope=\"row\">{} {}</th><td>{} <span class=\"aside\">{}</span>{}</td>{}{}{}{}{}{}</tr>\n",
-                     escaped(engine.kind->name), escaped(engine.version), escaped(each.rigidity.name),
-                     escaped(settingsText(each.rigidity)), stopped, cell(quantity(each.gap, "m")),
-                     cell(quantity(each.sag, "m")), cell(quantity(each.away, "m")), cell(quantity(each.energy, "J")),
-                     cell(quantity(each.work, "J")), cell(quantity(each.seconds, "s")));
+HtmlValue timeSteppingRow(const EngineResult& engine, const TimeSteppingResult& each) {
+  return {{"engine", nameOf(engine)},
+          {"rigidity", each.rigidity.name},
+          {"settings", settingsText(each.rigidity)},
+          {"gave_up", each.gave_up},
+          {"steps", each.steps},
+          {"gap", quantity(each.gap, "m")},
+          {"sag", quantity(each.sag, "m")},
+          {"away", quantity(each.away, "m")},
+          {"energy", quantity(each.energy, "J")},
+          {"work", quantity(each.work, "J")},
+          {"time", quantity(each.seconds, "s")}};
 }
 
 std::string inTimeTable(const SideBySide& found) {
-  std::string rows;
+  std::vector<HtmlValue> rows;
   for (const EngineResult& engine : found.engines)
-    for (const TimeSteppingResult& each : engine.in_time) rows += timeSteppingRow(engine, each);
-  return rows.empty() ? ""
-                      : table(fmt::format("The first {} of the motion, moved by the engine with its own closures under "
-                                          "the NOC's efforts. The "
-                                          "largest gap of the loops; sag of the platform's joints with the motors "
-                                          "where they are; how far the platform leaves the motion, which grows where "
-                                          "the motion is unstable; energy gained beside all work done; time a step, as "
-                                          "measured here.",
-                                          quantity(found.moved, "s")),
-                              head("Engine", false) + head("Rigidity", false) + head("Gap") + head("Sag") +
-                                  head("Off the motion") + head("Energy gained") + head("Work") + head("Time"),
-                              rows);
+    for (const TimeSteppingResult& each : engine.in_time) rows.push_back(timeSteppingRow(engine, each));
+  if (rows.empty()) return "";
+  const std::string caption = fmt::format(
+      "The first {} of the motion, moved by the engine with its own closures under the NOC's efforts. The "
+      "largest gap of the loops; sag of the platform's joints with the motors where they are; how far the "
+      "platform leaves the motion, which grows where the motion is unstable; energy gained beside all work "
+      "done; time a step, as measured here.",
+      quantity(found.moved, "s"));
+  return rendered(engines_in_time_html, {{"caption", caption}, {"rows", rows}}) + "\n";
 }
 
 std::string sentences(const SideBySide& found) {
-  std::string items;
-  for (const EngineResult& engine : found.engines) items += fmt::format("<li>{}</li>\n", escaped(sentence(engine)));
-  for (const LoopEngineKind* kind : found.missing)
-    items += fmt::format("<li>{}</li>\n", escaped(sentenceOfMissing(*kind)));
-  return "<ul>\n" + items + "</ul>\n";
+  std::vector<std::string> out;
+  for (const EngineResult& engine : found.engines) out.push_back(sentence(engine));
+  for (const LoopEngineKind* kind : found.missing) out.push_back(sentenceOfMissing(*kind));
+  return rendered(engines_sentences_html, {{"sentences", out}}) + "\n";
 }
 
 }  // namespace

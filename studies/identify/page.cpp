@@ -3,17 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/html_template.h"
 #include "report/page.h"
 #include "report/plots.h"
 #include "report/text.h"
 #include "studies/identify/identify.h"
 
 namespace ursula {
+
+extern const std::string_view identify_table_html, identify_list_html;
+
 namespace {
 
 using report::escaped;
+using report::HtmlValue;
 using report::Line;
+using report::listOf;
 using report::Plot;
+using report::rendered;
 using report::Stroke;
 
 constexpr std::size_t buckets = 400, most_rows = 60;
@@ -92,16 +99,13 @@ Plot spectrumPlot(const IdentifyResult& result) {
   return plot;
 }
 
-std::string tableOf(const std::vector<std::string>& heads, const std::vector<std::vector<std::string>>& rows) {
-  std::string out = "<div class=\"wide\" tabindex=\"0\"><table>\n<thead><tr>";
-  for (const std::string& head : heads) out += fmt::format("<th scope=\"col\">{}</th>", head);
-  out += "</tr></thead>\n<tbody>\n";
-  for (const auto& row : rows) {
-    out += "<tr>";
-    for (const std::string& cell : row) out += fmt::format("<td>{}</td>", cell);
-    out += "</tr>\n";
-  }
-  return rows.empty() ? "" : out + "</tbody></table></div>";
+/// Cells are HTML. `more` rows are left out.
+std::string tableOf(const std::vector<std::string>& heads, const std::vector<std::vector<std::string>>& rows,
+                    std::size_t more = 0) {
+  if (rows.empty()) return "";
+  const auto row = [](const std::vector<std::string>& cells) { return HtmlValue{{"cells", cells}}; };
+  return rendered(identify_table_html,
+                  {{"heads", heads}, {"rows", listOf(rows, row)}, {"more", more > 0 ? std::to_string(more) : ""}});
 }
 
 std::string numberText(double x) { return report::number(x, 6); }
@@ -133,12 +137,9 @@ std::string numbersTable(std::vector<MeasuredNumber> numbers, bool combinations)
                     "± " + report::number(0.5 * (n.high - n.low)), escaped(n.unit),
                     n.tolerance >= 0 ? report::number(n.tolerance) : "–", barOf(n)});
   }
-  std::string out = tableOf({combinations ? "Combination" : "Number", "Model", "Measured", "95 %", "Unit", "Tolerance",
-                             "−3 … 3 tolerances, or tenths of the number"},
-                            rows);
-  if (numbers.size() > rows.size())
-    out += fmt::format("<p>{} more in <code>parameters.csv</code>.</p>", numbers.size() - rows.size());
-  return out;
+  return tableOf({combinations ? "Combination" : "Number", "Model", "Measured", "95 %", "Unit", "Tolerance",
+                  "−3 … 3 tolerances, or tenths of the number"},
+                 rows, numbers.size() - rows.size());
 }
 
 std::string motorsTable(const IdentifyResult& result) {
@@ -170,9 +171,7 @@ std::string causesTable(const IdentifyResult& result) {
 }
 
 std::string list(const std::vector<std::string>& items) {
-  std::string out;
-  for (const std::string& each : items) out += fmt::format("<li>{}</li>\n", escaped(each));
-  return out.empty() ? "" : "<ul>" + out + "</ul>";
+  return items.empty() ? "" : rendered(identify_list_html, {{"items", items}});
 }
 
 }  // namespace
