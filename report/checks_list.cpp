@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
@@ -73,19 +72,8 @@ std::string word(Verdict verdict) {
   return out;
 }
 
-std::vector<HtmlValue> entries(const Check& check) {
-  const CheckRow* row = checkRow(check.name);
-  const std::array<std::pair<const char*, std::string>, 4> all = {{{"Means", row == nullptr ? "" : row->meaning},
-                                                                   {"Found", check.why},
-                                                                   {"Limit from", formulaInPrint(check.basis)},
-                                                                   {"In full", inFull(check)}}};
-  std::vector<HtmlValue> out;
-  for (const auto& [term, text] : all)
-    if (!text.empty()) out.push_back({{"term", term}, {"text", text}});
-  return out;
-}
-
 HtmlValue item(const Check& check, const Decades& decades) {
+  const CheckRow* row = checkRow(check.name);
   const bool has_value = !std::isnan(check.value) || !std::isnan(check.limit);
   return {{"verdict", name(check.verdict)},
           {"open", check.verdict == Verdict::fail || check.verdict == Verdict::inconclusive},
@@ -95,7 +83,10 @@ HtmlValue item(const Check& check, const Decades& decades) {
           {"bar", bar(check, decades)},
           {"value", has_value ? quantity(check.value, check.unit) : "no value"},
           {"limit", has_value ? quantity(check.limit, check.unit) : ""},
-          {"entries", entries(check)}};
+          {"means", row == nullptr ? "" : row->meaning},
+          {"found", check.why},
+          {"basis", formulaInPrint(check.basis)},
+          {"in_full", inFull(check)}};
 }
 
 int severity(const std::vector<Check>& checks) {
