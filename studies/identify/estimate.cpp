@@ -56,6 +56,7 @@ SquareRoot squareRootOf(const Eigen::MatrixXd& rows) {
   out.z = whole.col(count).head(count);
   out.rest = whole(count, count) * whole(count, count);
   out.rows = rows.rows();
+  out.shared = Eigen::VectorXd::Zero(count);
   return out;
 }
 
@@ -85,7 +86,29 @@ Whitened whiten(const Comparison& comparison, EffortNoise noise) {
     if (more.isZero(0) || pass == 2) break;
     noise.add(more);
   }
+  out.noise = std::move(noise);
   return out;
+}
+
+void setShared(const NoiseDraw& draw, const Comparison& comparison, const Comparison& noisy, const Whitened& whitened,
+               SquareRoot& model) {
+  MotorTables tables;
+  for (int k = 0; k < motor_count; ++k) {
+    tables[k] = Eigen::MatrixXd::Zero(comparison.model.rows(), comparison.columns[k].cols());
+    std::size_t there = 0;
+    for (std::size_t i = 0; i < comparison.kept.size(); ++i) {
+      while (there < noisy.kept.size() && noisy.kept[there] < comparison.kept[i]) ++there;
+      if (there < noisy.kept.size() && noisy.kept[there] == comparison.kept[i])
+        tables[k].row(i) = noisy.columns[k].row(there) - comparison.columns[k].row(i);
+    }
+  }
+  const Eigen::VectorXd product =
+      whitened.noise.whitened(interleaved(tables)).transpose() * whitened.noise.whitened(draw.efforts);
+  Eigen::VectorXd scale = model.R.colwise().norm().transpose();
+  for (double& each : scale) each = each > 0 ? 1 / each : 0;
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors((model.R * scale.asDiagonal()).transpose());
+  factors.setThreshold(1e-9);
+  model.shared = factors.solve(scale.cwiseProduct(product));
 }
 
 void setPlausible(const ManipulatorParameters& machine, const Comparison& comparison,
@@ -136,7 +159,8 @@ BaseFit fitBase(const SquareRoot& model, const std::vector<Direction>& direction
   while (rank < triangle.rows() && std::abs(triangle(rank, rank)) > std::max(visible, rounding * largest)) ++rank;
   const auto inner = triangle.topLeftCorner(rank, rank).triangularView<Eigen::Upper>();
   const Eigen::VectorXd projected = (qr.householderQ().transpose() * model.z).eval();
-  const Eigen::VectorXd x = inner.solve(projected.head(rank));
+  const Eigen::VectorXd x = inner.solve(projected.head(rank)),
+                        shared = inner.solve((qr.householderQ().transpose() * model.shared).head(rank));
   const Eigen::MatrixXd root = inner.solve(Eigen::MatrixXd::Identity(rank, rank));
   const Eigen::MatrixXd ties = inner.solve(triangle.topRightCorner(rank, count - rank));
   const auto of = [&](Eigen::Index i) { return static_cast<Eigen::Index>(qr.colsPermutation().indices()(i)); };
@@ -158,8 +182,9 @@ BaseFit fitBase(const SquareRoot& model, const std::vector<Direction>& direction
       base.nominal += factor * directions[j].nominal;
     }
     base.value = base.nominal + x(i) * plausible(of(i));
-    base.deviation = root.row(i).norm() * plausible(of(i));
-    out.parameters.push_back(base);
+    const double deviation = std::hypot(root.row(i).norm(), shared(i));
+    base.deviation = deviation * plausible(of(i));
+    if (deviation * visible <= 1 || shared(i) == 0) out.parameters.push_back(base);
   }
   for (Eigen::Index j = 0; j < count; ++j)
     if (model.R.col(j).norm() * plausible(j) < visible) out.unseen.push_back(j);

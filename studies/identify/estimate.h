@@ -14,6 +14,9 @@ struct SquareRoot {
   Eigen::VectorXd z;
   double rest = 0;
   Eigen::Index rows = 0;
+  /// A possible z of a right model, because columns and residual share noise of the motion. As large as chance makes it
+  /// unless noise dominates a column.
+  Eigen::VectorXd shared;
 };
 SquareRoot squareRootOf(const Eigen::MatrixXd& rows_with_y);
 
@@ -25,9 +28,14 @@ struct Whitened {
   Eigen::MatrixXd variances;  ///< of the noise, likewise
   Vector6d expected;          ///< root mean squares of noise as the samples explain it, N·m or N
   Eigen::Index rank = 0;      ///< rank of that fit
+  EffortNoise noise;          ///< the noise that this is in units of
 };
 /// Noise of a motor grows to its residual if that is more than chance.
 Whitened whiten(const Comparison& comparison, EffortNoise noise);
+
+/// Sets what columns and residual share. `noisy` is the comparison with the draw's noise in its motion.
+void setShared(const NoiseDraw& draw, const Comparison& comparison, const Comparison& noisy, const Whitened& whitened,
+               SquareRoot& model);
 
 /// A combination of directions that the motion shows, and its value.
 struct BaseParameter {

@@ -42,6 +42,7 @@ class FilteredLog {
   /// Takes this noise out of the motion, instead of what was taken out before. An instant in each row; value, rate and
   /// acceleration of all channels.
   void takeOut(const Eigen::MatrixXd& noise);
+  const Eigen::MatrixXd& taken() const { return taken_; }
   /// Returns what is taken out of the motion, after the efforts' low pass; a settled instant in each row.
   Eigen::MatrixXd takenOut() const { return lowPass(taken_); }
   /// Returns the same by a low pass with a higher cut-off.
@@ -70,6 +71,8 @@ class FilteredLog {
   };
   Lines effortLines() const;
   Lines motionLines() const { return motionLines(2); }
+  /// The same between the motion's instants, before the second low pass.
+  Lines stateLines() const { return motionLines(0); }
   /// The same between the motion's instants, before the second low pass, and the settled ones.
   Lines crossLines() const { return motionLines(1); }
   /// The same for what the low pass with the higher cut-off passes in addition.

@@ -61,6 +61,7 @@ class Identification {
       setPlausible(scenario_.manipulator->parameters(), comparison, comparison.directions);
       settleDelay(*modelled, coarse, comparison);
     }
+    shareNoise(filtered, comparison);
     noteSingular(comparison, filtered);
     tell(0.8, "judging and estimating");
     conclude(*modelled, comparison);
@@ -144,6 +145,17 @@ class Identification {
       if (std::abs(step) < settled_delay * std::min(deviation + 1e-9, log_.step) || pass == 5) return;
       out_.delay = std::clamp(out_.delay + step, coarse - 2 * reach, coarse + 2 * reach);
     }
+  }
+
+  /// Finds out by a draw of noise how much columns and residual share it. Most of it was taken out of the motion, but
+  /// not what the fit takes for numbers, which makes these too small where noise dominates a column.
+  void shareNoise(FilteredLog& filtered, const Comparison& comparison) {
+    const NoiseDraw draw = drawNoise(filtered, comparison);
+    const Eigen::MatrixXd taken = filtered.taken();
+    filtered.takeOut(taken - draw.motion);
+    setShared(draw, comparison, ModelledLog(scenario_, log_, filtered).directions(), whitened_, root_);
+    filtered.takeOut(taken);
+    base_ = fitBase(root_, comparison.directions, comparison.further());
   }
 
   void conclude(const ModelledLog& modelled, const Comparison& comparison) {

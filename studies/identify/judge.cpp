@@ -50,14 +50,14 @@ class Allowance {
   Eigen::LDLT<Eigen::MatrixXd> factors_;
 };
 
-/// Returns one column for each stated tolerance, scaled to deviation 1.
-Eigen::MatrixXd withinTolerances(const std::vector<Suspect>& suspects, Eigen::Index rows) {
-  std::vector<Eigen::VectorXd> allowed;
+/// Returns one column for each stated tolerance, scaled to deviation 1, and one for what columns and residual share.
+Eigen::MatrixXd withinTolerances(const std::vector<Suspect>& suspects, const SquareRoot& model) {
+  std::vector<Eigen::VectorXd> allowed = {model.shared};
   for (const Suspect& each : suspects) {
     const bool together = each.direction.path.compare(0, 24, "manipulator.leg_defaults") == 0;
     if (each.tolerance > 0 && !together) allowed.emplace_back(each.column * each.tolerance);
   }
-  Eigen::MatrixXd out(rows, allowed.size());
+  Eigen::MatrixXd out(model.R.rows(), allowed.size());
   for (std::size_t j = 0; j < allowed.size(); ++j) out.col(j) = allowed[j];
   return out;
 }
@@ -244,7 +244,7 @@ std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& compa
 std::pair<double, double> delayLeft(const SquareRoot& model, const Comparison& comparison,
                                     const std::vector<Suspect>& suspects, Eigen::Index noise_freedom) {
   const Eigen::MatrixXd column = model.R.col(comparison.delay());
-  Allowance allowance(withinTolerances(suspects, model.R.rows())), of_any_delay = allowance;
+  Allowance allowance(withinTolerances(suspects, model)), of_any_delay = allowance;
   of_any_delay.free(column);
   std::vector<const Suspect*> all;
   for (const Suspect& each : suspects) all.push_back(&each);
@@ -263,7 +263,7 @@ Judgement judge(const SquareRoot& model, const Comparison& comparison, const std
     all.push_back(&each);
     if (isOutside(each.direction.kind)) outside.push_back(&each);
   }
-  const Eigen::MatrixXd within = withinTolerances(suspects, model.R.rows());
+  const Eigen::MatrixXd within = withinTolerances(suspects, model);
   Eigen::MatrixXd columns(model.R.rows(), within.cols() + 1 + motor_count);
   columns << model.R.col(comparison.delay()) * delay_deviation, model.R.middleCols(comparison.further(), motor_count),
       within;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 
 namespace ursula::identification {
 namespace {
@@ -12,6 +13,21 @@ namespace {
 constexpr Eigen::Index longest_block = 160;
 /// Least noise of efforts, as a share of them: what the ends of both low passes' windows leave out, 1.1e-8.
 double leastNoise() { return 2 * Kernel::passError(); }
+
+/// Adds a series with these lines to values, and its derivatives to rates and accelerations.
+void addSeries(const FilteredLog::Lines& lines, const Eigen::VectorXd& t, double deviation, std::mt19937_64& dice,
+               Eigen::Ref<Eigen::MatrixXd> value_rate_acceleration) {
+  std::normal_distribution<double> normal(0, deviation);
+  for (std::size_t k = 0; k < lines.omega.size(); ++k) {
+    const double omega = lines.omega[k], size = std::sqrt(std::max(0.0, lines.weight[k]));
+    const double a = size * normal(dice), b = size * normal(dice);
+    const Eigen::ArrayXd c = (omega * t.array()).cos(), s = (omega * t.array()).sin();
+    value_rate_acceleration.col(0).array() += a * c + b * s;
+    if (value_rate_acceleration.cols() < 3) continue;
+    value_rate_acceleration.col(1).array() += omega * (b * c - a * s);
+    value_rate_acceleration.col(2).array() -= omega * omega * (a * c + b * s);
+  }
+}
 
 }  // namespace
 
@@ -112,6 +128,28 @@ Eigen::MatrixXd likelyNoiseOfMotion(const FilteredLog& filtered, const Compariso
               at->second(a, b) * pull.segment(b * channels, channels).transpose();
     }
   }
+  return out;
+}
+
+NoiseDraw drawNoise(const FilteredLog& filtered, const Comparison& comparison) {
+  const SampleNoise& noise = filtered.plan().noise;
+  const Eigen::Index channels = noise.motion.size(), all = filtered.size();
+  Eigen::VectorXd t(all);
+  for (Eigen::Index i = 0; i < all; ++i) t(i) = filtered.time(i);
+  std::mt19937_64 dice(1);
+  NoiseDraw out{Eigen::MatrixXd::Zero(all, 3 * channels), Eigen::VectorXd(6 * comparison.t.size())};
+  for (Eigen::Index c = 0; c < channels; ++c) {
+    Eigen::MatrixXd series = Eigen::MatrixXd::Zero(all, 3);
+    addSeries(filtered.stateLines(), t, noise.motion(c), dice, series);
+    for (int a = 0; a < 3; ++a) out.motion.col(a * channels + c) = series.col(a);
+  }
+  Eigen::MatrixXd efforts = Eigen::MatrixXd::Zero(comparison.t.size(), motor_count);
+  for (int k = 0; k < motor_count; ++k)
+    addSeries(filtered.effortLines(), comparison.t, noise.efforts(k), dice, efforts.col(k));
+  const Eigen::MatrixXd passed = filtered.lowPass(out.motion)(comparison.kept, Eigen::all);
+  for (Eigen::Index i = 0; i < passed.rows(); ++i)
+    out.efforts.segment<6>(6 * i) =
+        efforts.row(i).transpose() - comparison.slopes[static_cast<std::size_t>(i)] * passed.row(i).transpose();
   return out;
 }
 

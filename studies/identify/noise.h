@@ -10,6 +10,7 @@ namespace ursula::identification {
 /// within blocks, and blocks are independent of each other.
 class EffortNoise {
  public:
+  EffortNoise() = default;
   EffortNoise(const FilteredLog& filtered, const Comparison& comparison);
 
   /// Returns each motor's variance at each instant, (N·m)² or N²; an instant in each row.
@@ -39,5 +40,14 @@ class EffortNoise {
 /// of the motion in each row; value, rate and acceleration of all channels. Its size is at most about its deviation.
 Eigen::MatrixXd likelyNoiseOfMotion(const FilteredLog& filtered, const Comparison& comparison,
                                     const Eigen::VectorXd& weighed);
+
+/// A possible noise of a log, by the sizes and spectra that its filter plan has.
+struct NoiseDraw {
+  Eigen::MatrixXd motion;   ///< an instant of the motion in each row; value, rate and acceleration of all channels
+  Eigen::VectorXd efforts;  ///< what it and noise of the efforts add to measured minus modelled efforts, N·m or N, six
+                            ///< rows for each instant of the comparison
+};
+/// Draws a noise, always the same.
+NoiseDraw drawNoise(const FilteredLog& filtered, const Comparison& comparison);
 
 }  // namespace ursula::identification

@@ -206,13 +206,14 @@ class MachineFit {
   PhysicalEstimate result() {
     const Eigen::MatrixXd whole = information(momentsOf(machine_).second);
     const Eigen::MatrixXd covariance = scaledSolve(whole, Eigen::MatrixXd::Identity(whole.rows(), whole.cols()));
+    const Eigen::VectorXd shared = covariance * (jacobian(momentsOf(machine_).second).transpose() * model_.shared);
     for (NumberEstimate& each : estimates_) {
       each.value = each.number.get(machine_);
       each.deviation = each.before;
     }
     for (std::size_t k = 0; k < free_.size(); ++k) {
       NumberEstimate& each = estimates_[free_[k]];
-      each.deviation = std::sqrt(std::max(0.0, covariance(k, k)));
+      each.deviation = std::sqrt(std::max(0.0, covariance(k, k)) + shared(k) * shared(k));
       each.identified =
           each.deviation < identified_share * assumed(each.number, comparison_.directions[free_[k]].plausible);
     }
