@@ -110,25 +110,38 @@ void ModelledLog::refuse(const MeasuredLog& log, Eigen::Index at) const {
 }
 
 double ModelledLog::coarseDelay(double most) const {
+  constexpr double as_good = 10;  // twice a logarithm of likelihood
   const Eigen::MatrixXd measured = filtered_.efforts(0);
-  const Eigen::Index rows = filtered_.size(),
-                     reach = std::min<Eigen::Index>(static_cast<Eigen::Index>(most / filtered_.step()), rows / 4);
-  double best = std::numeric_limits<double>::infinity(), found = 0;
-  for (Eigen::Index lag = -reach; lag <= reach; ++lag) {
-    const Eigen::Index count = rows - 2 * reach;
-    double left = 0;
-    for (int k = 0; k < motor_count; ++k) {
-      const Eigen::VectorXd S = efforts_.col(k).segment(reach, count), D = measured.col(k).segment(reach + lag, count);
-      const Eigen::VectorXd s = S.array() - S.mean(), d = D.array() - D.mean();
-      if (d.squaredNorm() == 0 || s.squaredNorm() == 0) continue;
-      left += 1 - std::pow(std::max(0.0, s.dot(d)), 2) / (s.squaredNorm() * d.squaredNorm());
-    }
-    if (left < best) {
+  const Eigen::Index reach = std::min<Eigen::Index>(static_cast<Eigen::Index>(most / filtered_.step()),
+                                                    filtered_.size() / 4),
+                     margin = reach + filtered_.second().half;
+  std::vector<Eigen::Index> rows;
+  for (const Eigen::Index i : filtered_.settled())
+    if (i >= margin && i + margin < filtered_.size()) rows.push_back(i);
+  const auto passed = [&](const Eigen::MatrixXd& series, Eigen::Index lag) {
+    std::vector<Eigen::Index> later = rows;
+    for (Eigen::Index& each : later) each += lag;
+    const Eigen::MatrixXd out = Kernel::apply(filtered_.second().value, series, later);
+    return (out.rowwise() - out.colwise().mean()).eval();
+  };
+  const Eigen::MatrixXd S = passed(efforts_, 0);
+  const auto leftAt = [&](Eigen::Index lag) {
+    const Eigen::MatrixXd D = passed(measured, lag);
+    double left = 1e-12;
+    for (int k = 0; k < motor_count; ++k)
+      if (const double sizes = S.col(k).squaredNorm() * D.col(k).squaredNorm(); sizes > 0)
+        left += 1 - std::pow(std::max(0.0, S.col(k).dot(D.col(k))), 2) / sizes;
+    return left;
+  };
+  if (rows.size() < 3) return 0;
+  const double at_once = leftAt(0);
+  double best = at_once, found = 0;
+  for (Eigen::Index lag = -reach; lag <= reach; ++lag)
+    if (const double left = leftAt(lag); left < best) {
       best = left;
       found = static_cast<double>(lag) * filtered_.step();
     }
-  }
-  return found;
+  return static_cast<double>(motor_count * rows.size()) * std::log(at_once / best) > as_good ? found : 0;
 }
 
 void ModelledLog::compare(double delay, Comparison& out) const {

@@ -60,8 +60,8 @@ class ModelledLog {
 
   const FilteredLog& filtered() const { return filtered_; }
   const Eigen::MatrixXd& efforts() const { return efforts_; }
-  /// Returns the delay of measured efforts behind the motion's, s, with the best correlation. Its resolution is a step
-  /// of the filter; |delay| <= `most`.
+  /// Returns the delay of measured efforts behind the motion's, s, with the best correlation; 0 if that is as good. Its
+  /// resolution is a step of the filter; |delay| <= `most`.
   double coarseDelay(double most) const;
 
   /// Sets the measured efforts for a delay of `delay` s. The directions stay, because they do not depend on it.
