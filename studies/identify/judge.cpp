@@ -134,6 +134,12 @@ double thresholdOf(double risk, double count, Eigen::Index freedom) {
   return boost::math::quantile(boost::math::complement(distribution, risk / (2 * std::max(count, 1.0))));
 }
 
+/// Returns the limit of this many squares of noise.
+double likelyMost(Eigen::Index squares) {
+  return boost::math::quantile(
+      boost::math::complement(boost::math::chi_squared(static_cast<double>(squares)), risk_of_squares));
+}
+
 /// Whether a mass, an inertia or a friction explains all but a hundredth of the squared deviation. What it leaves is
 /// then no other cause, but what is beyond the linearisation, which a log with little noise shows.
 bool oneExplainsAll(const std::vector<const Suspect*>& suspects, const Eigen::MatrixXd& columns,
@@ -287,11 +293,13 @@ Judgement judge(const SquareRoot& model, const Comparison& comparison, const std
       out.least_found[all[j]->direction.path] =
           out.threshold * scores[j].deviation + one_sided * ownDeviation(scores[j], tolerance);
   out.squares = model.z.dot(everything * (everything.transpose() * allowance(model.z).col(0)));
-  out.squares_limit = boost::math::quantile(boost::math::complement(
-                          boost::math::chi_squared(static_cast<double>(out.freedom)), risk_of_squares)) *
+  out.squares_limit = likelyMost(out.freedom) *
                       (1 + 4 * std::sqrt(2.0 / static_cast<double>(std::max<Eigen::Index>(noise_freedom, 8))));
   findCauses(all, allowance, model.z, out.threshold, false, out.causes);
-  out.deviates = !out.causes.empty() || out.squares > out.squares_limit;
+  // Columns that noise dominates follow the deviation. Their squares tell a model error only if all of it is too large.
+  const bool by_noise = (everything.transpose() * model.shared).squaredNorm() > static_cast<double>(out.freedom) &&
+                        model.z.dot(allowance(model.z).col(0)) + model.rest < likelyMost(model.rows);
+  out.deviates = !out.causes.empty() || (out.squares > out.squares_limit && !by_noise);
   return out;
 }
 
