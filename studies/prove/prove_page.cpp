@@ -140,7 +140,7 @@ std::vector<report::PageFigure> figuresOf(const ProveResult& found) {
     const auto silent =
         std::count_if(outcomes.begin(), outcomes.end(), [](const DefectOutcome& each) { return !each.shows; });
     figures = {{"Defects", std::to_string(outcomes.size()), fmt::format("{} change nothing here", silent)},
-               {"ScenarioChange by one formulation alone", std::to_string(one), "by their nature"},
+               {"Seen by one formulation alone", std::to_string(one), "by their nature"},
                {"Checks", std::to_string(found.proof->checks.size()),
                 fmt::format("{} idle", idleChecks(found.proof->checks))}};
   }
