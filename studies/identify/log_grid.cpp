@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t fewest_rows = 16, most_gap = 100'000, head_size = 1000;
 /// Gaps of so many rows are filled by a cubic through two rows on either side, because links drop single rows often.
 constexpr std::size_t most_filled = 3;
+/// Rows are skipped up to this step, s. A motion of some hertz needs it.
+constexpr double coarsest = 0.01;
 const double turn = 2 * std::acos(-1.0);
 
 }  // namespace
@@ -41,6 +43,10 @@ void LogGrid::settleHead() {
 }
 
 void LogGrid::put(double t, std::vector<double>& row, const Place& place) {
+  if (isFull()) {
+    ++left_out_;
+    return;
+  }
   if (std::any_of(row.begin(), row.end(), [](double x) { return std::isnan(x); })) {
     ++lacking_;
     return;
@@ -69,20 +75,20 @@ void LogGrid::put(double t, std::vector<double>& row, const Place& place) {
 void LogGrid::append(const std::vector<double>& row, bool missing) {
   ++rows_;
   missing_.push_back(missing);
-  for (std::size_t k = 0; k < width_; ++k) sum_[k] += row[k];
-  if (++in_sum_ < averaged_) return;
-  in_sum_ = 0;
-  for (double& value : sum_) data_.push_back(std::exchange(value, 0) / averaged_);
-  if (data_.size() >= most_log_rows * width_) halve();
+  if (passed_++ % every_ != 0) return;
+  data_.insert(data_.end(), row.begin(), row.end());
+  if (data_.size() >= most_log_rows * width_ && !isFull()) halve();
 }
 
+bool LogGrid::isFull() const { return data_.size() >= most_log_rows * width_ && 2 * every_ * step_ > coarsest; }
+
 void LogGrid::halve() {
-  const std::size_t pairs = data_.size() / width_ / 2;
-  for (std::size_t i = 0; i < pairs; ++i)
-    for (std::size_t k = 0; k < width_; ++k)
-      data_[i * width_ + k] = (data_[2 * i * width_ + k] + data_[(2 * i + 1) * width_ + k]) / 2;
-  data_.resize(pairs * width_);
-  averaged_ *= 2;
+  const std::size_t half = (data_.size() / width_ + 1) / 2;
+  for (std::size_t i = 1; i < half; ++i)
+    std::copy_n(data_.begin() + static_cast<std::ptrdiff_t>(2 * i * width_), width_,
+                data_.begin() + static_cast<std::ptrdiff_t>(i * width_));
+  data_.resize(half * width_);
+  every_ *= 2;
 }
 
 std::vector<std::size_t> LogGrid::neighboursOf(std::size_t first, std::size_t end) const {
@@ -97,16 +103,16 @@ std::vector<std::size_t> LogGrid::neighboursOf(std::size_t first, std::size_t en
 }
 
 void LogGrid::markGaps(MeasuredLog& log) const {
-  const auto averaged = static_cast<std::size_t>(log.averaged);
+  const auto every = static_cast<std::size_t>(log.every);
   for (std::size_t first = 0; first < missing_.size(); ++first) {
     if (!missing_[first]) continue;
     const auto after = std::find(missing_.begin() + static_cast<std::ptrdiff_t>(first), missing_.end(), false);
     const auto end = static_cast<std::size_t>(after - missing_.begin());
     const std::vector<std::size_t> nodes = neighboursOf(first, end);
     const bool stays = end - first > most_filled || nodes.empty();
-    for (std::size_t k = first; k < end && k / averaged < log.missing.size(); ++k) {
-      if (stays) log.missing[k / averaged] = true;
-      if (stays || averaged > 1) continue;
+    for (std::size_t k = first; k < end && k / every < log.missing.size(); ++k) {
+      if (stays) log.missing[k / every] = true;
+      if (stays || every > 1) continue;
       log.filled.resize(log.missing.size(), false);
       log.filled[k] = true;
       Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(log.motion.cols());
@@ -133,21 +139,27 @@ MeasuredLog LogGrid::finish(const std::string& file) {
   MeasuredLog log;
   log.file = file;
   log.file_rows = count_;
-  log.averaged = averaged_;
+  log.every = every_;
   log.file_step = (grid_t_ - first_t_) / static_cast<double>(rows_ - 1);
-  log.step = log.file_step * averaged_;
-  log.start = first_t_ + 0.5 * (averaged_ - 1) * log.file_step;
+  log.step = log.file_step * every_;
+  log.start = first_t_;
   const std::size_t rows = data_.size() / width_;
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   log.motion = Eigen::Map<const Rows>(data_.data(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(width_));
   log.missing.assign(rows, false);
   markGaps(log);
-  if (const std::size_t filled = rows_ - (count_ - lacking_); filled > 0)
+  if (left_out_ > 0)
+    log.findings.push_back({"long", -1, static_cast<double>(left_out_), "rows",
+                            fmt::format("the rows up to t = {:.6g} s are used; {} more are left out, because steps "
+                                        "beyond {:g} s would hide the motion",
+                                        grid_t_, left_out_, coarsest)});
+  const std::size_t used = count_ - left_out_;
+  if (const std::size_t filled = rows_ - (used - lacking_); filled > 0)
     log.findings.push_back(
         {"drop_outs", -1, static_cast<double>(filled), "rows",
          fmt::format("of {} rows {} are missing (gaps: {}) and {} have empty cells; up to {} in a row are filled by a "
                      "cubic, what is near longer gaps is left out",
-                     rows_, rows_ - count_, gaps_, lacking_, most_filled)});
+                     rows_, rows_ - used, gaps_, lacking_, most_filled)});
   if (const double jitter = std::sqrt(jitter_ / static_cast<double>(rows_)); jitter > 0.05)
     log.findings.push_back(
         {"jitter", -1, jitter, "steps",

@@ -34,7 +34,7 @@ struct MeasuredLog {
   double start = 0, step = 0;  ///< first instant and step of these rows, s
   double file_step = 0;        ///< step of the file's rows, s
   std::size_t file_rows = 0;
-  int averaged = 1;        ///< file rows averaged in one row
+  int every = 1;           ///< this row of the file and its multiples are taken
   bool has_poses = false;  ///< `motion` has p (m) and q [w, x, y, z]; otherwise driven coordinates, rad or m
   bool by_currents = false;
   Eigen::MatrixXd motion;         ///< an instant in each row, 6 or 7 columns
@@ -48,7 +48,8 @@ struct MeasuredLog {
   double time(double row) const { return start + row * step; }
 };
 
-/// Largest number of rows in memory. Beyond it, neighbours are averaged in pairs, motion and efforts alike.
+/// Largest number of rows in memory. Beyond it, every second row is taken, then every fourth, up to a step of 0.01 s.
+/// Averages would filter motion and efforts alike, but not what they make of each other.
 constexpr std::size_t most_log_rows = std::size_t{1} << 20;
 
 /// Reads a log row by row with the columns of findLogColumns. It unwraps turning coordinates and makes quaternions of

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "base/csv.h"
+#include "studies/identify/log_grid.h"
 #include "studies/identify/measured_log.h"
 #include "tests/studies/identify/synthetic_log.h"
 
@@ -84,6 +85,34 @@ TEST_F(MeasuredLogs, degreesAreRadiansByTheirName) {
   const MeasuredLog log =
       read(rows("t_s,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,tau1,tau2,tau3,tau4,tau5,tau6", ","));
   EXPECT_NEAR(log.motion(0, 0), std::acos(-1.0) / 180, 1e-9);
+}
+
+/// Returns what a grid makes of rows whose value is their index.
+MeasuredLog gridOf(std::size_t rows, double step) {
+  identification::LogGrid grid(1, {});
+  std::vector<double> row(1);
+  for (std::size_t i = 0; i < rows; ++i) {
+    row[0] = static_cast<double>(i);
+    grid.add(static_cast<double>(i) * step, row, [] { return std::string("a row"); });
+  }
+  return grid.finish("long.csv");
+}
+
+TEST(LogGrid, takesEverySecondRowOfALongLogAndTheFirstOfALongCoarseOne) {
+  const std::size_t most = most_log_rows;
+  const MeasuredLog fine = gridOf(most + 1001, 0.002);
+  EXPECT_EQ(fine.every, 2);
+  EXPECT_NEAR(fine.step, 0.004, 1e-12);
+  EXPECT_TRUE(fine.findings.empty());
+  ASSERT_EQ(fine.motion.rows(), static_cast<Eigen::Index>(most / 2 + 501));
+  for (const Eigen::Index i : {Eigen::Index(0), Eigen::Index(7), Eigen::Index(most / 2 + 500)})
+    EXPECT_EQ(fine.motion(i, 0), 2 * static_cast<double>(i));
+  const MeasuredLog coarse = gridOf(most + 1001, 0.006);
+  EXPECT_EQ(coarse.every, 1);
+  EXPECT_EQ(coarse.motion.rows(), static_cast<Eigen::Index>(most));
+  ASSERT_EQ(coarse.findings.size(), 1U);
+  EXPECT_EQ(coarse.findings[0].kind, "long");
+  EXPECT_EQ(coarse.findings[0].value, 1001);
 }
 
 TEST_F(MeasuredLogs, shortGapsAreFilledAndLongOnesMarked) {
