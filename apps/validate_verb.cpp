@@ -52,7 +52,7 @@ std::string inWords(double seconds) {
 void sayWork(const Scenario& scenario, double limit, bool asks_process) {
   constexpr double worth_a_word = 60;  // s: shorter work is not announced
   if (asks_process && !(limit > 0))
-    say("{}: asks the solver some 20,000 times; --time-limit 20 judges its samples alone, and names a cause\n",
+    say("{}: asks the solver 20,000 times or more; --time-limit 20 judges its samples alone, and names a cause\n",
         scenario.name);
   const double estimate = estimatedSeconds(scenario);
   if (!(estimate > worth_a_word)) return;

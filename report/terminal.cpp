@@ -144,7 +144,7 @@ std::string motorsText(const std::vector<MotorDeviation>& motors) {
 /// The sources of the replay's error, one per line.
 std::string replayText(const ReplayError& found, const std::string& noun) {
   if (!found.measured)
-    return "dominant error: " + found.dominant + (found.dominant == "model" ? ", the torques\n" : "\n");
+    return "dominant error: " + found.dominant + (found.dominant == "model" ? ": the torques are wrong\n" : "\n");
   std::string out = "dominant error: " + found.dominant + "\n";
   std::vector<std::vector<std::string>> rows;
   for (const auto& [source, share] : {std::pair("rounding", found.rounding),
