@@ -36,7 +36,7 @@ add_custom_target(ursula_headers ALL DEPENDS ${headers_stamp})
 # linked, for the libraries that they need.
 set(parts ursula_base ursula_model ursula_nocsolver ursula_parallel ursula_simbody_loop ursula_maximal_loop ursula_mujoco ursula_further_engines ursula_verdict
   ursula_subject ursula_limits ursula_samples ursula_replay ursula_evidence ursula_checks ursula_findings
-  ursula_causes ursula_report ursula_validation ursula_outside ursula_provenance
+  ursula_mistakes ursula_causes ursula_report ursula_validation ursula_outside ursula_provenance
   ursula_check_scenario ursula_compare ursula_identify ursula_map ursula_simulate ursula_stream ursula_exchange)
 list(TRANSFORM parts REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE objects)
 add_library(ursula_library SHARED ${PROJECT_SOURCE_DIR}/cmake/library.cpp ${objects})

@@ -16,7 +16,8 @@ VALIDATION = {
     "evidence": "subject limits samples replay",
     "checks": "verdict subject limits samples replay evidence",
     "findings": "verdict subject limits samples replay",
-    "causes": "verdict subject limits samples replay evidence",
+    "mistakes": "verdict subject limits",
+    "causes": "verdict subject limits samples replay evidence mistakes",
     "": "verdict subject limits samples evidence checks findings causes",  # the entry: validation/*.cpp
     "outside": "verdict subject ",
 }

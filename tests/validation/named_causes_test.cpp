@@ -14,7 +14,7 @@
 #include "validation/causes/asked_apart.h"
 #include "validation/causes/diagnosis.h"
 #include "validation/causes/explanation.h"
-#include "validation/causes/tied_parameters.h"
+#include "validation/mistakes/tied_parameters.h"
 
 namespace ursula {
 namespace {
@@ -131,6 +131,11 @@ TEST(NamedCause, columnsAreNamed) {
   const NamedCause flipped = named(diagnosed(exact.changed([](std::size_t, Vector6d& tau) { tau(2) *= -1; })));
   EXPECT_EQ(flipped.kind, CauseKind::sign);
   EXPECT_EQ(flipped.motor, 3);
+  const NamedCause several = named(diagnosed(exact.changed([](std::size_t, Vector6d& tau) {
+    for (const int i : {1, 3, 5}) tau(i) *= -1;
+  })));
+  EXPECT_EQ(several.kind, CauseKind::sign);
+  EXPECT_THAT(several.legs, testing::ElementsAre(2, 4, 6));
   EXPECT_EQ(named(diagnosed(exact.changed([](std::size_t, Vector6d& tau) { tau *= 1e-3; }))).kind, CauseKind::units);
   const NamedCause offset = named(diagnosed(exact.changed([](std::size_t, Vector6d& tau) { tau(3) += 5; })));
   EXPECT_EQ(offset.kind, CauseKind::offset);
@@ -221,6 +226,11 @@ TEST(NamedCause, tiesAreLeftOpenUnlessTheySayTheSame) {
   const Explanation open = named({hypothesis(missing), hypothesis(mass)}, data, "");
   EXPECT_FALSE(open.named);
   EXPECT_EQ(open.others.size(), 2U);
+  const NamedCause frame{CauseKind::frame, "gravity", "all"}, of_platform{CauseKind::frame, "gravity", "platform"};
+  const Explanation likelier = named({hypothesis(missing), hypothesis(frame), hypothesis(frame)}, data, "");
+  EXPECT_EQ(likelier.named.value().kind, CauseKind::missing_term);
+  EXPECT_EQ(likelier.others.size(), 1U) << "each is listed once";
+  EXPECT_FALSE(named({hypothesis(missing), hypothesis(of_platform)}, data, "").named) << "of another body";
   data.motions = {one, one};
   EXPECT_FALSE(named({hypothesis(missing)}, data, "").named);
 }

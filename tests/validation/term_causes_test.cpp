@@ -1,6 +1,6 @@
 // Terms and loops of machines of every kind: taken together they are the NOC's efforts, and each mistake changes these.
 
-#include "validation/causes/tried_causes.h"
+#include "validation/mistakes/tried_causes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,6 +17,7 @@
 #include "nocsolver/errors.h"
 #include "tests/support/motions.h"
 #include "validation/causes/diagnosis.h"
+#include "validation/causes/fits.h"
 #include "validation/limits/conditioning.h"
 #include "validation/subject/torque_file.h"
 
@@ -55,7 +56,7 @@ TEST_P(Terms, areEachSeen) {
   std::set<std::string> kinds;
   const Vector6d right = expected(machine_);
   std::size_t seen = 0;
-  for (const std::vector<Cause>& causes : {termCauses(scenario_), loopCauses(scenario_)}) {
+  for (const std::vector<Cause>& causes : {termCauses(scenario_), jacobianCauses(scenario_), loopCauses(scenario_)}) {
     ASSERT_FALSE(causes.empty());
     for (const Cause& cause : causes) {
       const Vector6d wrong = cause.torques(0, {motion()}).at(0);
@@ -134,7 +135,8 @@ Scenario withRotors() {
 
 std::vector<Cause> causesLike(const Scenario& scenario, const std::string& words) {
   std::vector<Cause> out;
-  for (const auto& causes : {termCauses, loopCauses, slidingCauses, rateCauses, motionCauses, machineCauses})
+  for (const auto& causes :
+       {termCauses, jacobianCauses, loopCauses, slidingCauses, rateCauses, motionCauses, machineCauses})
     for (const Cause& cause : causes(scenario))
       if (cause.words(0, 0).find(words) != std::string::npos) out.push_back(cause);
   return out;
@@ -179,7 +181,10 @@ INSTANTIATE_TEST_SUITE_P(
         "the smoothing speed of Coulomb friction, on angles and on d",
         "accelerations without the rate of the Jacobian of legs and platform",
         "second rates of roll, pitch and yaw without the rate", "roll, pitch and yaw turned in the other order",
-        "x, y, z turned in the other order", "the position of the platform's mass centre taken for that of P"),
+        "x, y, z turned in the other order", "the position of the platform's mass centre taken for that of P",
+        "m |rho|^2 added to every moment", "the load's point with the wrong sign", "half of omega and its rate",
+        "the arm of the platform's weight not turned", "weights of the distal links put at their first joints",
+        "that comes from turning left out", "inertia of the platform read in the order xx, yy, zz, xy, yz, xz"),
     [](const auto& each) { return "n" + std::to_string(each.index); });
 
 /// A solver that reads the motion wrongly, and whose legs have no end of stroke.

@@ -133,6 +133,8 @@ std::optional<Explanation> sameAnswers(const MotorNames& motors, const ExternalT
                   NamedCause{CauseKind::scale, "", all ? "all" : "", "", "", 1.0, 0.0}};
   out.named->explained = 1;
   if (which.size() == 1) out.named->motor = which.front() + 1;
+  if (which.size() > 1 && !all)
+    for (const int motor : which) out.named->legs.push_back(motor + 1);
   return out;
 }
 

@@ -1,3 +1,5 @@
+#include "validation/causes/fits.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <utility>
 
 #include "nocsolver/errors.h"
-#include "validation/causes/cause.h"
 
 namespace ursula {
 namespace {
@@ -17,6 +18,7 @@ using Rows = std::vector<Vector6d>;
 constexpr std::size_t few_instants = 20, most_instants = 200;  // for the choice, for the fit
 constexpr std::size_t likely_causes = 64, best_causes = 12;
 constexpr double difference_step = 1e-5;
+constexpr double may_be_rounding = 2;  ///< limits: one for the given torques, one for the cause's
 
 /// Picks up to `most` rows from `first` to `last`, evenly.
 void pick(const TorqueResidual& data, std::size_t first, std::size_t last, std::size_t most, TorqueResidual& out) {
@@ -28,12 +30,6 @@ void pick(const TorqueResidual& data, std::size_t first, std::size_t last, std::
   }
 }
 
-double dot(const Rows& a, const Rows& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].dot(b[k]);
-  return sum;
-}
-
 /// One cause on some instants.
 class Fit {
  public:
@@ -41,9 +37,21 @@ class Fit {
     if (!cause.fitted) start(0);
   }
 
-  /// The cosine between the residual and the effect of a small x; 0 if there is no effect.
+  /// The cosine between the residual and the cause's effect, of a small x or of a start; 0 if there is no effect. The
+  /// likeliest start becomes x.
   double likeness() {
-    if (!cause_.fitted) return std::sqrt(1 - std::min(1.0, unexplained_ * unexplained_));
+    if (!cause_.fitted) return explained();
+    double best = 0, where = 0;
+    for (const double each : cause_.starts) {
+      start(each);
+      const double like = each == 0 ? likenessOfSlope() : explained();
+      if (like > best) best = like, where = each;
+    }
+    start(where);
+    return best;
+  }
+
+  double likenessOfSlope() const {
     const Rows slope = slopeAt(0);
     const double size = std::sqrt(dot(slope, slope));
     if (!(size * difference_step > 1e-12 * std::sqrt(dot(data_.exact, data_.exact)))) return 0;
@@ -64,6 +72,7 @@ class Fit {
 
   double x() const { return x_; }
   double unexplained() const { return unexplained_; }
+  double explained() const { return std::sqrt(1 - std::min(1.0, unexplained_ * unexplained_)); }
 
   Hypothesis hypothesis() {
     const Rows left = remaining(x_);
@@ -148,14 +157,25 @@ class Fit {
   }
 
   /// Two standard deviations of x from the remainder, or from the file's precision (uniform within its limits) if that
-  /// is larger.
+  /// is larger. A remainder with a pattern is another error, of which x may have taken as large a part.
   double deviationAt(const Rows& left) const {
     const Rows slope = slopeAt(x_);
+    if (beyond(left) > may_be_rounding && hasPattern(left)) return 2 * std::sqrt(dot(left, left) / dot(slope, slope));
     double precision = 0;
     for (const Vector6d& row : data_.limit) precision += row.squaredNorm() / 3;
     const double numbers = 6 * static_cast<double>(left.size());
     const double variance = std::max(dot(left, left) / std::max(1.0, numbers - 1), precision / numbers);
     return 2 * std::sqrt(variance / dot(slope, slope));
+  }
+
+  /// Whether successive remainders along the motion are alike.
+  bool hasPattern(const Rows& left) const {
+    double along = 0, all = 0;
+    for (std::size_t k = 0; k + 1 < data_.commanded; ++k) {
+      along += left[k].dot(left[k + 1]);
+      all += left[k].squaredNorm();
+    }
+    return along > 0.3 * all;
   }
 
   const Cause& cause_;
@@ -196,12 +216,14 @@ std::vector<Hypothesis> fitCauses(const std::vector<Cause>& causes, const Torque
   std::vector<Candidate> candidates;
   if (!(few.norm() > 0)) return {};
   for (std::size_t i = 0; i < causes.size(); ++i) {
-    const double likeness = Fit(causes[i], few).likeness();
-    if (likeness > 0.2) candidates.push_back({i, likeness, 0});
+    Fit fit(causes[i], few);
+    const double likeness = fit.likeness();
+    if (likeness > 0.2) candidates.push_back({i, likeness, fit.x()});
   }
   keepBest(candidates, likely_causes);
   for (Candidate& candidate : candidates) {
     Fit fit(causes[candidate.place], few);
+    fit.start(candidate.x);
     fit.improve(8);
     candidate = {candidate.place, -fit.unexplained(), fit.x()};
   }
@@ -216,23 +238,6 @@ std::vector<Hypothesis> fitCauses(const std::vector<Cause>& causes, const Torque
     if (std::isfinite(whole.unexplained())) out.push_back(whole.hypothesis());
   }
   return out;
-}
-
-Cause fixedCause(const CauseName& name,
-                 std::function<std::vector<Vector6d>(const std::vector<Motion<double>>&)> torques) {
-  Cause out{
-      false,
-      [torques = std::move(torques)](double, const std::vector<Motion<double>>& motions) { return torques(motions); },
-      [text = name.text](double, double) { return text; }};
-  if (name.named) out.named = [named = name.named](double, double) { return named; };
-  return out;
-}
-
-std::string withDeviation(double value, double deviation) {
-  const double size = std::abs(value);
-  if (!(deviation > 1e-9 * size && std::isfinite(deviation))) return fmt::format("{:.9g} +- {:.1g}", value, deviation);
-  const int place = static_cast<int>(std::floor(std::log10(deviation)));
-  return fmt::format("{:.{}f} +- {:.1g}", value, std::clamp(-place, 0, 15), deviation);
 }
 
 }  // namespace ursula

@@ -97,19 +97,10 @@ TorqueResidual residualOf(const Scenario& scenario, const ExternalTorques& torqu
             torques.precision[k].array() + torques.samples[k].conditioning.torqueRounding());
   }
   out.commanded = count;
+  out.instants = torques.file.t;
   for (std::size_t k = 0; k < asked.motions.size(); ++k)
     out.add(asked.motions[k], asked.expected[k], asked.found[k], Vector6d::Constant(asked.rounding[k]));
   return out;
-}
-
-/// Whether successive residuals are uncorrelated: their correlation is within three of its deviations, and small. Few
-/// instants of a smooth deviation may be within the deviations alone.
-bool isNoise(const TorqueResidual& data) {
-  double along = 0, all = 0;
-  for (std::size_t k = 0; k + 1 < data.residual.size(); ++k) along += data.residual[k].dot(data.residual[k + 1]);
-  for (const Vector6d& row : data.residual) all += row.squaredNorm();
-  return data.residual.size() >= 16 &&
-         std::abs(along / all) <= std::min(0.3, 3 / std::sqrt(static_cast<double>(data.residual.size())));
 }
 
 std::string percent(double explained) {
@@ -237,6 +228,21 @@ Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torqu
 /// Share of the deviation: a cause that explains less is not mentioned.
 constexpr double worth_naming = 0.5;
 
+/// Describes the best with fewer numbers than motors, since one number for each motor explains a part of anything.
+/// Empty if it explains too little, as of noise.
+std::string bestOfFewNumbers(std::vector<Hypothesis> fitted) {
+  fitted.erase(std::remove_if(fitted.begin(), fitted.end(),
+                              [](const Hypothesis& one) { return one.free_numbers >= motor_count; }),
+               fitted.end());
+  if (fitted.empty()) return "";
+  const Hypothesis first = bestOf(fitted).front();
+  if (first.explained() < worth_naming || first.of_found > worth_naming) return "";
+  if (first.unexplained >= may_remain)
+    return fmt::format("{}, explains only {}", first.text, percent(first.explained()));
+  return fmt::format("{}, explains {}, but leaves {:.3g} % of what was answered", first.text,
+                     percent(first.explained()), 100 * first.of_found);
+}
+
 Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torques, const AskedApart& asked) {
   const TorqueResidual data = residualOf(scenario, torques, asked);
   const std::vector<Hypothesis> fitted = fitHypotheses(scenario, data);
@@ -250,9 +256,8 @@ Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torqu
                         how_much, first.beyond, othersText(best))};
   if (const Explanation interval = intervalAlone(scenario, torques, data); !interval.text.empty()) return interval;
   if (const std::string alone = loneInstants(torques); !alone.empty()) return {"no simple explanation: " + alone};
-  if (first.explained() >= worth_naming && first.of_found <= worth_naming)  // noise is explained by nothing
-    return {
-        fmt::format("no simple explanation; the best, {}, explains only {}", first.text, percent(first.explained()))};
+  if (const std::string some = bestOfFewNumbers(fitted); !some.empty())
+    return {"no simple explanation; the best, " + some};
   return {isNoise(data.alongMotion()) ? "no pattern from one instant to the next, as of noise or too few digits"
                                       : "no simple explanation"};
 }

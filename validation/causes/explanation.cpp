@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace ursula {
@@ -25,12 +26,29 @@ bool sayTheSame(const NamedCause& first, const NamedCause& other) {
       first.kind == other.kind && first.term == other.term && first.leg == other.leg &&
       (!first.term.empty() || first.kind == CauseKind::reference_point || first.kind == CauseKind::jacobian);
   if (one_term && other.kind != CauseKind::parameter) return true;  // for other bodies that make no difference here
+  const bool without_numbers =
+      first.kind == CauseKind::parameter && other.kind == first.kind && !first.expected && !other.expected;
+  if (without_numbers && first.parameter == other.parameter && first.leg == other.leg && first.body == other.body)
+    return true;  // of one owner, in other words
   if (other.kind != CauseKind::parameter || !other.expected || !other.found) return false;
   const double expected = *other.expected, found = *other.found, little = 1e-3 * std::abs(expected);
   if (first.kind == CauseKind::missing_term) return std::abs(found) <= little;
   if (first.kind == CauseKind::sign) return std::abs(found + expected) <= little;
   return first.kind == CauseKind::parameter &&
          other.parameter.compare(0, first.parameter.size(), first.parameter) == 0 && !first.parameter.empty();
+}
+
+/// Whether a term left out is a tie with a rarer mistake of the same term: a carriage's weight across its rail.
+bool isLikelier(const NamedCause& first, const NamedCause& other) {
+  return first.kind == CauseKind::missing_term && other.kind == CauseKind::frame && first.term == other.term &&
+         first.body == other.body;
+}
+
+bool areEqual(const NamedCause& a, const NamedCause& b) {
+  const auto fields = [](const NamedCause& of) {
+    return std::tie(of.kind, of.term, of.body, of.leg, of.motor, of.parameter, of.legs, of.expected, of.found);
+  };
+  return fields(a) == fields(b);
 }
 
 /// Does not blame the other links if their mass centres make no difference. Of a term it names no body if several would
@@ -55,8 +73,11 @@ Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& dat
   bool is_alone = first.named.has_value();
   for (const Hypothesis& one : best) {
     if (&one != &first && first.named && one.named && sayTheSame(*first.named, *one.named)) continue;
-    if (&one != &first && one.free_numbers <= first.free_numbers) is_alone = false;
+    const bool is_rarer = first.named && one.named && isLikelier(*first.named, *one.named);
+    if (&one != &first && one.free_numbers <= first.free_numbers && !is_rarer) is_alone = false;
     if (!one.named) continue;
+    if (std::any_of(out.others.begin(), out.others.end(), [&](const auto& each) { return areEqual(each, *one.named); }))
+      continue;
     out.others.push_back(*one.named);
     out.others.back().explained = 1 - one.unexplained * one.unexplained;
   }
@@ -65,6 +86,24 @@ Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& dat
   out.others.erase(out.others.begin());
   leaveOutOtherLinks(best, *out.named);
   return out;
+}
+
+bool isNoise(const TorqueResidual& data) {
+  constexpr double outlier = 3;  // medians: one-sided differences at the ends must not hide a pattern
+  const std::size_t rows = data.residual.size();
+  double along = 0, all = 0;
+  for (int i = 0; i < motor_count && rows > 0; ++i) {
+    std::vector<double> sizes, clipped;
+    for (const Vector6d& row : data.residual) sizes.push_back(std::abs(row(i)));
+    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(rows / 2), sizes.end());
+    const double most = outlier * sizes[rows / 2];
+    for (const Vector6d& row : data.residual) clipped.push_back(std::clamp(row(i), -most, most));
+    for (std::size_t k = 0; k < rows; ++k) {
+      all += clipped[k] * clipped[k];
+      if (k + 1 < rows) along += clipped[k] * clipped[k + 1];
+    }
+  }
+  return rows >= 16 && std::abs(along / all) <= std::min(0.3, 3 / std::sqrt(static_cast<double>(rows)));
 }
 
 void nameState(ValidationResult& result) {

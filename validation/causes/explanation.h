@@ -20,6 +20,10 @@ struct Explanation {
 /// pose. No cause is better than a wrong one.
 Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& data, std::string text);
 
+/// Whether successive residuals are uncorrelated, but for outliers: their correlation is within three of its
+/// deviations, and small. Few instants of a smooth deviation may be within the deviations alone.
+bool isNoise(const TorqueResidual& data);
+
 /// Names the state of a solver that answers the same question differently; it precedes every other cause.
 void nameState(ValidationResult& result);
 

@@ -8,20 +8,14 @@
 #include <optional>
 
 #include "base/scalar.h"
-#include "validation/causes/cause.h"
+#include "validation/causes/fits.h"
 #include "validation/causes/hypothesis_terms.h"
-#include "validation/causes/tried_causes.h"
+#include "validation/mistakes/tried_causes.h"
 
 namespace ursula {
 namespace {
 
 using Rows = std::vector<Vector6d>;
-
-double dot(const Rows& a, const Rows& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].dot(b[k]);
-  return sum;
-}
 
 /// 1 + c, with extra digits if c is small.
 std::string factorText(double c) {
@@ -115,6 +109,7 @@ Hypothesis perLeg(const TorqueResidual& data, const Vector6d& fitted, const Rows
     named.motor = legs.front() + 1;
     named.found = *named.expected + fitted(legs.front());
   } else {
+    for (const int leg : legs) named.legs.push_back(leg + 1);
     named.expected.reset();
   }
   out.named = named;
@@ -139,9 +134,11 @@ std::optional<Hypothesis> gains(const TorqueResidual& data) {
   const Vector6d c = (under.array() > 0).select(over.cwiseQuotient(under), 0);
   Rows predicted;
   for (const Vector6d& row : data.exact) predicted.push_back(c.cwiseProduct(row));
-  return perLeg(
+  Hypothesis out = perLeg(
       data, c, predicted, [](double value, int) { return "a factor of " + factorText(value); }, "",
       NamedCause{CauseKind::scale, "", "", "", "", 1.0});
+  out.beyond /= std::max(1.0, (1 + c.array()).abs().maxCoeff());  // rounding grows with the torques
+  return out;
 }
 
 }  // namespace
@@ -242,8 +239,10 @@ std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResi
     if (term.fixed) add(scaledTerm(data, term));
   if (data.exact.size() >= 3) add(softLoops(scenario, data));
   std::vector<Cause> causes = machineCauses(scenario);
-  for (const auto& more : {motionCauses, rateCauses, termCauses, slidingCauses, loopCauses})
+  for (const auto& more : {motionCauses, rateCauses, termCauses, slidingCauses, jacobianCauses, loopCauses})
     for (Cause& cause : more(scenario)) causes.push_back(std::move(cause));
+  if (data.commanded == data.motions.size())  // and the solver was not asked at other instants
+    for (Cause& cause : differenceCauses(scenario, data.instants)) causes.push_back(std::move(cause));
   for (const Hypothesis& fitted : fitCauses(causes, data)) add(fitted);
   if (data.exact.size() >= 3)
     for (const Hypothesis& fitted : fitVectors(scenario, data)) add(fitted);

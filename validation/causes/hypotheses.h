@@ -35,6 +35,7 @@ struct TorqueResidual {
   /// Number of rows along the commanded motion; further rows are a solver's answers to separate questions.
   std::size_t commanded = 0;
   MotorNames motors;
+  std::vector<double> instants;  ///< all of the given torques, s; empty if unknown
 
   void add(const Motion<double>& motion, const Vector6d& right, const Vector6d& found, const Vector6d& within);
   /// Only the rows along the commanded motion.

@@ -1,4 +1,4 @@
-#include "validation/causes/tried_causes.h"
+#include "validation/causes/fits.h"
 
 #include <fmt/format.h>
 
@@ -101,6 +101,8 @@ NamedCause namedOrder(const std::vector<int>& from, const std::vector<int>& flip
   }
   if (flipped.size() == motor_count) out.body = "all";
   if (flipped.size() == 1) out.motor = flipped.front() + 1;
+  if (flipped.size() > 1 && flipped.size() < motor_count)
+    for (const int motor : flipped) out.legs.push_back(motor + 1);
   return out;
 }
 

@@ -1,10 +1,12 @@
+#include "validation/causes/fits.h"
+
 #include <fmt/format.h>
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "validation/causes/tried_causes.h"
+#include "validation/subject/body_terms.h"
 
 namespace ursula {
 namespace {

@@ -1,4 +1,4 @@
-#include "validation/causes/tried_causes.h"
+#include "validation/causes/fits.h"
 
 #include <fmt/format.h>
 

@@ -6,8 +6,8 @@
 
 #include "model/machine_numbers.h"
 #include "nocsolver/errors.h"
-#include "validation/causes/machine_collector.h"
-#include "validation/causes/tried_causes.h"
+#include "validation/causes/fits.h"
+#include "validation/mistakes/machine_collector.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -34,12 +34,12 @@ void move(const Entries& entries, const Eigen::Vector3d& by, ManipulatorParamete
 /// The shortest solution. Ways that change nothing, such as an axis's own length, have the rounding of differences.
 Vector3d leastSolution(const Matrix3d& matrix, const Vector3d& right, int& rank) {
   constexpr double nothing = 1e-10;
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> parts(matrix);
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> ways(matrix);
   Vector3d out = Vector3d::Zero();
   rank = 0;
   for (int k = 0; k < 3; ++k)
-    if (const double value = parts.eigenvalues()(k); value > nothing * parts.eigenvalues()(2)) {
-      out += parts.eigenvectors().col(k) * (parts.eigenvectors().col(k).dot(right) / value);
+    if (const double value = ways.eigenvalues()(k); value > nothing * ways.eigenvalues()(2)) {
+      out += ways.eigenvectors().col(k) * (ways.eigenvectors().col(k).dot(right) / value);
       ++rank;
     }
   return out;

@@ -1,4 +1,4 @@
-#include "validation/causes/tried_causes.h"
+#include "validation/mistakes/tried_causes.h"
 
 #include <fmt/format.h>
 
@@ -19,19 +19,6 @@ using Rows = std::vector<Vector6d>;
 using Motions = std::vector<Motion<double>>;
 using MotionChange = std::function<void(Motion<double>&)>;
 using MachineChange = std::function<void(ManipulatorParameters&, const Matrix3d& Q)>;
-
-/// Telescopic legs without an end of stroke, because a misread pose may be beyond it, and a solver need not care.
-Manipulator withoutStroke(const Manipulator& machine) {
-  ManipulatorParameters out = machine.parameters();
-  for (Leg& leg : out.legs) {
-    if (leg.kind != LegKind::UPS) continue;
-    const double whole = leg.proximal.length + leg.distal.length, shorter = 0.999 * leg.distal.length;
-    leg.proximal.length = 10 * whole;
-    leg.distal.length -= shorter;
-    leg.distal.center_of_mass -= shorter;  // at the same place
-  }
-  return Manipulator(out);
-}
 
 /// Uses another machine at each instant.
 Cause notTurned(const Scenario& scenario, const CauseName& name, const MachineChange& change) {
@@ -246,6 +233,10 @@ void addLoads(const Scenario& scenario, std::vector<Cause>& out) {
       [](Load& load, const Matrix3d& /*Q*/) {
         load.frame = load.frame == Load::Frame::base ? Load::Frame::platform : Load::Frame::base;
       });
+  for (const auto& [which, part] :
+       {std::pair("force", &Load::force), {"moment", &Load::moment}, {"point", &Load::point}})
+    add({fmt::format("the load's {} with the wrong sign", which), NamedCause{CauseKind::sign, "load", "platform"}},
+        [part = part](Load& load, const Matrix3d& /*Q*/) { load.*part *= -1; });
   const Vector3d rho = scenario.manipulator->platform().center_of_mass;
   for (const auto& [where, point] : {std::pair("P", Vector3d::Zero().eval()), {"the platform's mass centre", rho}})
     add({std::string("the load taken to act at ") + where, NamedCause{CauseKind::reference_point, "load", "platform"}},
@@ -258,6 +249,18 @@ void addLoads(const Scenario& scenario, std::vector<Cause>& out) {
 }
 
 }  // namespace
+
+Manipulator withoutStroke(const Manipulator& machine) {
+  ManipulatorParameters out = machine.parameters();
+  for (Leg& leg : out.legs) {
+    if (leg.kind != LegKind::UPS) continue;
+    const double whole = leg.proximal.length + leg.distal.length, shorter = 0.999 * leg.distal.length;
+    leg.proximal.length = 10 * whole;
+    leg.distal.length -= shorter;
+    leg.distal.center_of_mass -= shorter;  // at the same place
+  }
+  return Manipulator(out);
+}
 
 Cause readOtherwise(const Scenario& scenario, const CauseName& name,
                     const std::function<void(Motion<double>&)>& change) {

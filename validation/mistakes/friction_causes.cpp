@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
-#include "validation/causes/machine_collector.h"
+#include "validation/mistakes/machine_collector.h"
 
 namespace ursula {
 namespace {
@@ -78,6 +80,11 @@ void addFriction(const Manipulator& machine, MachineCauses& out) {
   });
 }
 
+/// The laws with their keys.
+const std::pair<const char*, const JointFriction& (*)(const Leg&)> laws[] = {
+    {"friction", [](const Leg& leg) -> const JointFriction& { return leg.friction; }},
+    {"coulomb", [](const Leg& leg) -> const JointFriction& { return leg.coulomb; }}};
+
 /// A choice of a leg's joints.
 enum class Joints { all, driven, passive };
 
@@ -95,11 +102,33 @@ bool rubs(const Machine& machine, bool viscous, bool coulomb, Joints but_for) {
   });
 }
 
-/// Omits parts of the scenario's friction if it has others too; omitting all of it is a term of its own.
-void addFrictionLeftOut(const Machine& machine, MachineCauses& out) {
-  const NamedCause named{CauseKind::missing_term, "friction", "all"};
-  const auto add = [&](const char* text, bool viscous, bool coulomb, Joints which) {
-    out.addFixed({text, named}, [=](Machine& changed) {
+/// The start of the paths of all coefficients that `change` clears.
+std::string pathOfCleared(const Machine& machine, const std::function<void(Machine&)>& change) {
+  Machine cleared = machine;
+  change(cleared);
+  std::string shared;
+  for (std::size_t i = 0; i < machine.legs.size(); ++i)
+    for (const Coordinate coordinate : rowOf(machine.legs[i].kind).coordinates)
+      for (const auto& [key, law] : laws) {
+        if (law(machine.legs[i]).on(coordinate) == law(cleared.legs[i]).on(coordinate)) continue;
+        const std::string path = fmt::format("manipulator.leg_defaults.{}.{}", key, nameOf(coordinate));
+        if (shared.empty()) shared = path;
+        while ((path + ".").rfind(shared + ".", 0) != 0) shared.erase(shared.rfind('.'));
+      }
+  return shared;
+}
+
+/// Omits parts of the scenario's friction if it has others too, or turns their sign; all of it is a term of its own.
+void addPartsOfFriction(const Machine& machine, MachineCauses& out) {
+  const auto add = [&](const std::string& text, const std::function<void(Machine&)>& change) {
+    const std::string path = pathOfCleared(machine, change);
+    if (path.empty()) return;
+    for (const auto& [way, kind, times] :
+         {std::tuple(" left out", CauseKind::missing_term, 1.0), {" with the wrong sign", CauseKind::sign, 2.0}})
+      out.addFixed({text + way, NamedCause{kind, "friction", "all", path}}, change, times);
+  };
+  const auto addLaws = [&](const char* text, bool viscous, bool coulomb, Joints which) {
+    add(text, [=](Machine& changed) {
       for (Leg& leg : changed.legs) {
         if (viscous) clear(leg.friction, leg, which);
         if (coulomb) clear(leg.coulomb, leg, which);
@@ -110,25 +139,24 @@ void addFrictionLeftOut(const Machine& machine, MachineCauses& out) {
     return rubs(machine, viscous, coulomb, Joints::driven) || rubs(machine, viscous, coulomb, Joints::passive);
   };
   if (any(true, false) && any(false, true)) {
-    add("viscous friction left out", true, false, Joints::all);
-    add("Coulomb friction left out", false, true, Joints::all);
+    addLaws("viscous friction", true, false, Joints::all);
+    addLaws("Coulomb friction", false, true, Joints::all);
   }
   if (rubs(machine, true, true, Joints::driven) && rubs(machine, true, true, Joints::passive)) {
-    add("friction of the joints without motors left out", true, true, Joints::passive);
-    add("friction of the driven joints left out", true, true, Joints::driven);
+    addLaws("friction of the joints without motors", true, true, Joints::passive);
+    addLaws("friction of the driven joints", true, true, Joints::driven);
   }
   for (const Coordinate coordinate : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d})
-    out.addFixed({fmt::format("friction on every {} left out", nameOf(coordinate)), named},
-                 [coordinate](Machine& changed) {
-                   for (Leg& leg : changed.legs) leg.friction.on(coordinate) = leg.coulomb.on(coordinate) = 0;
-                 });
+    add(fmt::format("friction on every {}", nameOf(coordinate)), [coordinate](Machine& changed) {
+      for (Leg& leg : changed.legs) leg.friction.on(coordinate) = leg.coulomb.on(coordinate) = 0;
+    });
 }
 
 }  // namespace
 
 void addFrictionCauses(const Manipulator& machine, MachineCauses& out) {
   addFriction(machine, out);
-  addFrictionLeftOut(machine.parameters(), out);
+  addPartsOfFriction(machine.parameters(), out);
 }
 
 }  // namespace ursula

@@ -13,7 +13,9 @@ namespace ursula {
 struct TiedParameters {
   std::string words;  ///< "mass centre of the distal links"
   std::vector<Parameter> members;
+  bool together = false;  ///< whether all move by one amount, which is relative to the first
 
+  /// Disturbs parameters of a right machine.
   void disturb(ManipulatorParameters& machine, double relative) const;
   /// "mass centre of the distal links 0.65 +- 1e-05 m instead of 0.7", or a factor if the members differ.
   std::string text(const ManipulatorParameters& machine, double relative, double deviation) const;
@@ -23,7 +25,8 @@ struct TiedParameters {
   std::optional<NamedCause> named(const ManipulatorParameters& machine, double relative, double deviation) const;
 };
 
-/// Those of all legs come first, then both links of all legs, both links of one leg, and each alone.
+/// Those of all legs come first, then both links of all legs, both links of one leg, and each alone. Points of all legs
+/// move together. Unequal lengths and mass centres do so too, in a second entry.
 std::vector<TiedParameters> tiedParameters(const Manipulator& machine);
 
 }  // namespace ursula

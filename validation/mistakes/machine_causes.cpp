@@ -1,4 +1,4 @@
-#include "validation/causes/tried_causes.h"
+#include "validation/mistakes/tried_causes.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include "validation/causes/machine_collector.h"
-#include "validation/causes/tied_parameters.h"
+#include "validation/mistakes/machine_collector.h"
+#include "validation/mistakes/tied_parameters.h"
 
 namespace ursula {
 namespace {
@@ -41,6 +41,34 @@ void addInertias(MachineCauses& out) {
                  Platform& one = machine.platform;
                  one.inertia = moved(one.inertia, one.mass, one.center_of_mass, -1);
                });
+  for (const auto& [words, sign] : {std::pair("added to", 1), {"taken off", -1}})
+    out.addFixed({fmt::format("m |rho|^2 {} every moment of inertia of the platform, without the outer product", words),
+                  platform_inertia},
+                 [sign = sign](Machine& machine) {
+                   Platform& one = machine.platform;
+                   one.inertia += sign * one.mass * one.center_of_mass.squaredNorm() * Matrix3d::Identity();
+                 });
+  const auto add_order = [&](const char* order, const std::function<void(Matrix3d&)>& change) {
+    const std::string words = fmt::format(" read in the order {}", order);
+    out.addLinks("inertias of ", words, CauseKind::frame, "inertia", [change](Link& one) { change(one.inertia); });
+    out.addFixed({"inertia of the platform" + words, NamedCause{CauseKind::frame, "inertia", "platform"}},
+                 [change](Machine& machine) { change(machine.platform.inertia); });
+  };
+  for (const auto& [order, from] : {std::pair("xx, yy, zz, xz, xy, yz", Vector3d(1, 0, 2)),
+                                    {"xx, yy, zz, yz, xz, xy", Vector3d(2, 1, 0)},
+                                    {"xx, yy, zz, xy, yz, xz", Vector3d(0, 2, 1)},
+                                    {"xx, yy, zz, yz, xy, xz", Vector3d(2, 0, 1)}})
+    add_order(order, [from = from](Matrix3d& I) {
+      const Vector3d products(I(0, 1), I(0, 2), I(1, 2));
+      const auto at = [&](int k) { return products(static_cast<int>(from(k))); };
+      I(0, 1) = I(1, 0) = at(0), I(0, 2) = I(2, 0) = at(1), I(1, 2) = I(2, 1) = at(2);
+    });
+  for (const int first : {1, 2})
+    add_order(first == 1 ? "yy, zz, xx" : "zz, xx, yy", [first](Matrix3d& I) {
+      const Matrix3d before = I;
+      for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k) I(i, k) = before((i + first) % 3, (k + first) % 3);
+    });
   const std::tuple<const char*, int, int> exchanged[] = {{"x and y", 0, 1}, {"x and z", 0, 2}, {"y and z", 1, 2}};
   for (const auto& [axes, i, k] : exchanged) {
     const auto exchange = [i = i, k = k](Matrix3d& inertia) {
@@ -87,6 +115,8 @@ void addExchanged(MachineCauses& out) {
                [](Link& one) { one.center_of_mass = one.length / 2; });
   out.addLinks("mass centres of ", " at their first joints", CauseKind::reference_point, "",
                [](Link& one) { one.center_of_mass = 0; });
+  out.addLinks("mass centres of ", " put on their lines", CauseKind::reference_point, "",
+               [](Link& one) { one.off_line.setZero(); });
   out.addFixed({"mass centre of the platform taken at P", platform_centre},
                [](Machine& machine) { machine.platform.center_of_mass.setZero(); });
   out.addFixed({"mass centre of the platform on the other side of P", platform_centre},
@@ -98,14 +128,11 @@ void addExchanged(MachineCauses& out) {
       std::swap(leg.proximal.length, leg.distal.length);
     }
   });
+  out.addFixed({"proximal and distal links exchanged, with their lengths", of_links}, [](Machine& machine) {
+    for (Leg& leg : machine.legs) std::swap(leg.proximal, leg.distal);
+  });
   out.addFixed({"proximal and distal inertias exchanged", of_links}, [](Machine& machine) {
     for (Leg& leg : machine.legs) std::swap(leg.proximal.inertia, leg.distal.inertia);
-  });
-  out.addFixed({"base axes without their part along z"}, [](Machine& machine) {
-    for (Leg& leg : machine.legs) leg.base_axis.z() = 0;
-  });
-  out.addFixed({"base axes with the wrong sign of z"}, [](Machine& machine) {
-    for (Leg& leg : machine.legs) leg.base_axis.z() *= -1;
   });
 }
 
@@ -202,6 +229,7 @@ std::vector<Cause> machineCauses(const Scenario& scenario) {
   addOtherEnds(scenario.manipulator->legCount(), out);
   addKnees(*scenario.manipulator, out);
   addRotors(scenario, out);
+  addPointCauses(*scenario.manipulator, out);
   addFrictionCauses(*scenario.manipulator, out);
   return std::move(out.causes);
 }

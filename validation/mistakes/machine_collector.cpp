@@ -1,9 +1,12 @@
-#include "validation/causes/machine_collector.h"
+#include "validation/mistakes/machine_collector.h"
 
+#include <memory>
 #include <utility>
 
-#include "validation/causes/machine_slopes.h"
-#include "validation/causes/tied_parameters.h"
+#include "validation/limits/conditioning.h"
+#include "validation/mistakes/machine_slopes.h"
+#include "validation/mistakes/tied_parameters.h"
+#include "validation/mistakes/tried_causes.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -14,7 +17,7 @@ using Rows = std::vector<Vector6d>;
 using Change = MachineCauses::Change;
 
 Rows torquesOf(const Machine& machine, const Scenario& scenario, const std::vector<Motion<double>>& motions) {
-  const Subject noc = nocSubject(Manipulator(machine), scenario.load);
+  const Subject noc = nocSubject(withoutStroke(Manipulator(machine)), scenario.load);
   Rows out;
   out.reserve(motions.size());
   for (const Motion<double>& motion : motions) out.push_back(noc.torques(motion));
@@ -67,7 +70,11 @@ void MachineCauses::addTied(const TiedParameters& tied) {
       change, [tied, machine](double x, double deviation) { return tied.text(machine, x, deviation); },
       [tied, machine](double x, double deviation) { return tied.named(machine, x, deviation); });
   causes.back().is_possible = [tied, machine](double x) { return tied.isPossible(machine, x); };
-  if (tied.members.front().group != "inertia") return;
+  const Parameter& first = tied.members.front();
+  if (tied.members.size() == 1 && first.entries == 3 &&
+      first.get(machine) != 0)  // the wrong sign is far from the right
+    causes.back().starts.push_back(-2 * first.get(machine) / first.size(machine));
+  if (first.group != "inertia") return;
   const Scenario& scenario = scenario_;
   causes.back().torques = [&scenario, change](double x, const std::vector<Motion<double>>& motions) {
     return torquesOfInertias(scenario, change, x, motions);
@@ -85,6 +92,11 @@ void MachineCauses::addFixed(const CauseName& name, const std::function<void(Mac
     for (std::size_t k = 0; k < out.size(); ++k) out[k] = right[k] + times * (out[k] - right[k]);
     return out;
   }));
+  causes.back().rounding = [&scenario, change](const Motion<double>& motion) {
+    Machine machine = scenario.manipulator->parameters();
+    change(machine);
+    return ConditioningProbe(withoutStroke(Manipulator(machine)), scenario.load).at(motion).torqueRounding();
+  };
 }
 
 void MachineCauses::addLinks(const std::string& before, const std::string& after, CauseKind kind, const char* term,
@@ -99,6 +111,33 @@ void MachineCauses::addLinks(const std::string& before, const std::string& after
                  if (which != 0) change(leg.distal);
                }
              });
+}
+
+void EffortCauses::add(const std::string& text, const NamedCause& named, const EffortChange& change,
+                       const std::shared_ptr<const Manipulator>& changed) {
+  const Scenario& scenario = scenario_;
+  causes.push_back(fixedCause({text, named}, [&scenario, change, changed](const std::vector<Motion<double>>& motions) {
+    const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
+    std::vector<Vector6d> out;
+    for (const Motion<double>& motion : motions)
+      out.push_back(noc.torques(motion) + change(machineTerms(*changed, scenario.load, motion)));
+    return out;
+  }));
+}
+
+void EffortCauses::addAlsoWithoutMotors(const std::string& text, const NamedCause& named, const EffortChange& change) {
+  add(text, named, change);
+  ManipulatorParameters machine = scenario_.manipulator->parameters();
+  double motors = 0;
+  for (const Motor& motor : scenario_.manipulator->motors()) {
+    Leg& leg = machine.legs[static_cast<std::size_t>(motor.leg)];
+    for (double* number : {&leg.friction.on(motor.coordinate), &leg.coulomb.on(motor.coordinate),
+                           &leg.rotor_inertia.on(motor.coordinate)})
+      motors += std::exchange(*number, 0);
+  }
+  if (motors > 0)
+    add(text + ", before the motors' own friction and rotors were added", named, change,
+        std::make_shared<const Manipulator>(machine));
 }
 
 }  // namespace ursula

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/scalar.h"
-#include "validation/causes/tried_causes.h"
+#include "validation/mistakes/tried_causes.h"
 
 namespace ursula {
 namespace {
@@ -107,6 +107,9 @@ void addUnits(const Scenario& scenario, std::vector<Cause>& out) {
   for (const auto& [words, factor] : {std::pair("half of", 0.5), {"twice", 2.0}})
     add(words + std::string(" the angular velocity, by the factor of 2 of a quaternion's rate"), "angular_velocity",
         factor, omega, CauseKind::scale);
+  for (const auto& [words, factor] : {std::pair("half of", 0.5), {"twice", 2.0}})
+    add(words + std::string(" omega and its rate, by the factor of 2 of a quaternion's rate"), "angular_velocity",
+        factor, both, CauseKind::scale);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "validation/causes/machine_slopes.h"
+#include "validation/mistakes/machine_slopes.h"
 
 #include "model/machine_numbers.h"
 #include "validation/subject/subject.h"

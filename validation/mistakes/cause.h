@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/scenario.h"
-#include "validation/causes/hypotheses.h"
+#include "validation/verdict/result.h"
 
 namespace ursula {
 
@@ -26,6 +26,8 @@ struct Cause {
   std::function<double(const Motion<double>&)> rounding = {};
   /// Whether a body can have the fitted number; empty if it can have every one.
   std::function<bool(double x)> is_possible = {};
+  /// Where the fit may begin; other numbers than 0 are tried as they are.
+  std::vector<double> starts = {0};
 };
 
 /// The name of a cause without a fitted number, in words and in the contract.
@@ -37,11 +39,6 @@ struct CauseName {
 /// A cause without a fitted number; `torques` is as above with x = 0.
 Cause fixedCause(const CauseName& name,
                  std::function<std::vector<Vector6d>(const std::vector<Motion<double>>&)> torques);
-
-/// Fits all causes to the residual to first order on a few instants. It fits the likely ones there by Gauss–Newton, and
-/// the best on all instants. It drops causes without effect, without a fit, or incompatible with the motion. The order
-/// is that of `causes`.
-std::vector<Hypothesis> fitCauses(const std::vector<Cause>& causes, const TorqueResidual& data);
 
 /// "499.31 +- 0.02", to the deviation's digits but at most ten.
 std::string withDeviation(double value, double deviation);

@@ -1,4 +1,4 @@
-#include "validation/causes/tried_causes.h"
+#include "validation/mistakes/tried_causes.h"
 
 #include <fmt/format.h>
 
@@ -226,6 +226,19 @@ void addTensors(Collector& out) {
                     const Matrix3d R = back ? Matrix3d(body.R.transpose()) : body.R;
                     return Vector6d(body.gravityWrench(machine.gravity) - body.gravityWrench(R * machine.gravity));
                   });
+  for (const auto& [words, times] : {std::pair("not turned into the base's frame", 1), {"turned the wrong way", 2}})
+    out.add(fmt::format("the arm of the platform's weight {}", words), {CauseKind::frame, "gravity", "platform"},
+            [times = times](const MachineTerms& machine) {
+              Vector3d arm = machine.rho;
+              for (int k = 0; k < times; ++k) arm = (machine.platform.R.transpose() * arm).eval();
+              const Vector3d weight = gravity(machine, machine.platform).tail<3>();
+              return Vector6d(machine.T_P.transpose() * momentWrench((arm - machine.rho).cross(weight)));
+            });
+  for (const Group& group : groups)
+    if (!group.platform)
+      out.add(fmt::format("weights of {} put at their first joints", group.words),
+              {CauseKind::reference_point, "gravity", group.body},
+              [group](const MachineTerms& machine) { return Vector6d(-effortsOf(machine, group, ofItsArm(gravity))); });
   const auto leftInOwnFrame = [](const Wrench& moment) {
     return [moment](const MachineTerms& machine, const BodyTerms& body) {
       const Vector3d n = moment(machine, body).head<3>();
@@ -247,17 +260,6 @@ void addTensors(Collector& out) {
 }
 
 }  // namespace
-
-void EffortCauses::add(const std::string& text, const NamedCause& named, const EffortChange& change) {
-  const Scenario& scenario = scenario_;
-  causes.push_back(fixedCause({text, named}, [&scenario, change](const std::vector<Motion<double>>& motions) {
-    const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
-    std::vector<Vector6d> out;
-    for (const Motion<double>& motion : motions)
-      out.push_back(noc.torques(motion) + change(machineTerms(*scenario.manipulator, scenario.load, motion)));
-    return out;
-  }));
-}
 
 std::vector<Cause> termCauses(const Scenario& scenario) {
   Collector out(scenario);

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <functional>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "validation/causes/cause.h"
-#include "validation/causes/hypotheses.h"
+#include "validation/mistakes/cause.h"
 #include "validation/subject/body_terms.h"
 
 // The causes that hypotheses.cpp tries on efforts that are wrong, a source for each group.
@@ -25,26 +24,13 @@ std::vector<Cause> motionCauses(const Scenario& scenario);
 /// Rates read otherwise: rates of angles for the angular velocity, degrees, millimetres.
 std::vector<Cause> rateCauses(const Scenario& scenario);
 
+/// Telescopic legs without an end of stroke: another machine or a misread pose may be beyond it, and a solver need not
+/// care.
+Manipulator withoutStroke(const Manipulator& machine);
+
 /// The NOC's efforts for a motion that a solver read otherwise; telescopic legs then have no end of stroke.
 Cause readOtherwise(const Scenario& scenario, const CauseName& name,
                     const std::function<void(Motion<double>&)>& change);
-
-/// Tries every order of the legs with the best signs, in the unit that the torques' size suggests. Returns nullopt if
-/// neither order nor signs differ.
-std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data);
-
-/// Finds torques of another time, τ(t + dt), with dt in ms and in samples. Uses the samples whose shifted time is
-/// within the motion; returns nullopt if they are too few.
-std::optional<Hypothesis> timeShift(const Scenario& scenario, const TorqueResidual& data);
-
-/// Tries efforts of an engine whose soft constraints close the loops, as mj_inverse has them: open loops, with forces
-/// in proportion to J̇ u. One number per leg is fitted. Returns nullopt if a leg's number is not positive or has no
-/// effect.
-std::optional<Hypothesis> softLoops(const Scenario& scenario, const TorqueResidual& data);
-
-/// Tries every vector of the machine with all its entries wrong: gravity, mass centres, points, axes. It fits two or
-/// three numbers each, and drops those that leave more than a thousandth.
-std::vector<Hypothesis> fitVectors(const Scenario& scenario, const TorqueResidual& data);
 
 /// The efforts that a mistake adds for one motion.
 using EffortChange = std::function<Vector6d(const MachineTerms&)>;
@@ -54,11 +40,18 @@ class EffortCauses {
  public:
   explicit EffortCauses(const Scenario& scenario) : scenario_(scenario) {}
 
-  void add(const std::string& text, const NamedCause& named, const EffortChange& change);
+  void add(const std::string& text, const NamedCause& named, const EffortChange& change) {
+    add(text, named, change, scenario_.manipulator);
+  }
+  /// Adds the mistake also for a solver that makes it first, and then adds its motors' own friction and rotors.
+  void addAlsoWithoutMotors(const std::string& text, const NamedCause& named, const EffortChange& change);
 
   std::vector<Cause> causes;
 
  private:
+  void add(const std::string& text, const NamedCause& named, const EffortChange& change,
+           const std::shared_ptr<const Manipulator>& changed);
+
   const Scenario& scenario_;
 };
 
@@ -66,8 +59,15 @@ class EffortCauses {
 /// sign; tensors use other frames or points; the links' spin is missing. `scenario` must outlive them.
 std::vector<Cause> termCauses(const Scenario& scenario);
 
-/// A wrong Jacobian, open loops or loops closed by least squares, missing J̇. `scenario` must outlive them.
+/// A wrong Jacobian, or moments about the wrong point. `scenario` must outlive them.
+std::vector<Cause> jacobianCauses(const Scenario& scenario);
+
+/// Open loops or loops closed by least squares, missing J̇. `scenario` must outlive them.
 std::vector<Cause> loopCauses(const Scenario& scenario);
+
+/// Rates that a solver takes as differences between the instants of its torques, s. Empty if these are too few.
+/// `scenario` must outlive them.
+std::vector<Cause> differenceCauses(const Scenario& scenario, const std::vector<double>& instants);
 
 /// Mistakes with sliding legs, UPS and PUS: a mass centre is measured from the joint at the leg's other end, or a force
 /// is along the wrong line. `scenario` must outlive them.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/causes/cause.h"
+#include "validation/mistakes/cause.h"
 
 namespace ursula {
 
@@ -36,7 +36,10 @@ class MachineCauses {
   std::shared_ptr<MachineSlopes> slopes_;
 };
 
-/// Friction that the scenario lacks, and omitted parts of its own.
+/// Points and axes of all legs at once: scaled, turned, numbered otherwise.
+void addPointCauses(const Manipulator& machine, MachineCauses& out);
+
+/// Friction that the scenario lacks, and parts of its own left out or with the wrong sign.
 void addFrictionCauses(const Manipulator& machine, MachineCauses& out);
 
 }  // namespace ursula

@@ -1,4 +1,4 @@
-#include "validation/causes/tied_parameters.h"
+#include "validation/mistakes/tied_parameters.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/scalar.h"
-#include "validation/causes/cause.h"
+#include "validation/mistakes/cause.h"
 
 namespace ursula {
 namespace {
@@ -28,10 +28,35 @@ std::string sharedPath(const std::vector<Parameter>& members) {
   return shared;
 }
 
+bool areEqual(const ManipulatorParameters& machine, const std::vector<Parameter>& members) {
+  return std::all_of(members.begin(), members.end(),
+                     [&](const Parameter& each) { return isEqual(each.get(machine), members.front().get(machine)); });
+}
+
+/// Points move together. So may unequal lengths and mass centres, which otherwise change in proportion.
+void addTogether(const ManipulatorParameters& machine, std::vector<TiedParameters>& list) {
+  const std::size_t count = list.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const Parameter& first = list[k].members.front();
+    if (first.group == "point") list[k].together = true;
+    if ((first.group != "length" && first.group != "center") || first.leg < 0 || areEqual(machine, list[k].members))
+      continue;
+    list.push_back(list[k]);
+    list.back().together = true;
+  }
+}
+
 }  // namespace
 
 void TiedParameters::disturb(ManipulatorParameters& machine, double relative) const {
-  for (const Parameter& member : members) member.disturb(machine, relative);
+  ManipulatorParameters first = machine;
+  members.front().disturb(first, relative);
+  const double change = members.front().get(first) - members.front().get(machine);
+  for (const Parameter& member : members)
+    if (together)
+      member.set(machine, member.get(machine) + change);
+    else
+      member.disturb(machine, relative);
 }
 
 std::string TiedParameters::text(const ManipulatorParameters& machine, double relative, double deviation) const {
@@ -44,7 +69,7 @@ std::string TiedParameters::text(const ManipulatorParameters& machine, double re
   const double before = first.get(machine), after = first.get(changed);
   for (const Parameter& member : members) {
     same_before = same_before && isEqual(member.get(machine), before);
-    same_change = same_change && isEqual(member.get(changed) - member.get(machine), after - before);
+    same_change = same_change && (together || isEqual(member.get(changed) - member.get(machine), after - before));
   }
   const double spread = std::abs(first.get(further) - after);
   if (same_before) return fmt::format("{} {}{} instead of {:.9g}", words, withDeviation(after, spread), unit, before);
@@ -105,13 +130,13 @@ std::vector<TiedParameters> tiedParameters(const Manipulator& machine) {
       continue;
     }
     const bool is_link = !link.empty();
-    // For a sliding rod only the distance of its mass centre from the outer end matters; the mass centre's cause covers
-    // it.
-    if (link == "distal" && one.quantity == Quantity::length && rowOf(machine.leg(one.leg).kind).isTelescopic())
-      continue;
     add(of_legs, fmt::format("{} of {}leg {}", words, is_link ? "the " + link + " link of " : "", leg), one);
     add(all_legs, fmt::format("{} of {}", words, is_link ? "the " + link + " links" : "every leg"), one);
-    if (!is_link) continue;
+    // Of a sliding rod only the mass centre's distance from the outer end matters: an error of its length has the same
+    // effect, and both are named. A cylinder's length has none.
+    const bool is_sliding =
+        link == "distal" && one.quantity == Quantity::length && rowOf(machine.leg(one.leg).kind).isTelescopic();
+    if (!is_link || is_sliding) continue;
     add(all_links, words + " of all links", one);
     if (one.quantity == Quantity::inertia && one.entry < 2) {
       add(all_legs, fmt::format("inertia xx and yy of the {} links", link), one);
@@ -119,6 +144,8 @@ std::vector<TiedParameters> tiedParameters(const Manipulator& machine) {
     }
     add(both_links, fmt::format("{} of both links of leg {}", words, leg), one);
   }
+  addTogether(machine.parameters(), all_legs);
+  addTogether(machine.parameters(), all_links);
   for (const auto* list : {&all_legs, &all_links, &of_legs, &both_links})
     out.insert(out.end(), list->begin(), list->end());
   return out;

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "model/scenario.h"
+#include "validation/causes/hypotheses.h"
+#include "validation/mistakes/cause.h"
+
+// How causes are fitted: those of validation/mistakes/, and some with ways of their own.
+
+namespace ursula {
+
+/// Σ aₖ·bₖ.
+inline double dot(const std::vector<Vector6d>& a, const std::vector<Vector6d>& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].dot(b[k]);
+  return sum;
+}
+
+/// Fits all causes to the residual to first order on a few instants. It fits the likely ones there by Gauss–Newton, and
+/// the best on all instants. It drops causes without effect, without a fit, or incompatible with the motion. The order
+/// is that of `causes`.
+std::vector<Hypothesis> fitCauses(const std::vector<Cause>& causes, const TorqueResidual& data);
+
+/// Tries every order of the legs with the best signs, in the unit that the torques' size suggests. Returns nullopt if
+/// neither order nor signs differ.
+std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data);
+
+/// Finds torques of another time, τ(t + dt), with dt in ms and in samples. Uses the samples whose shifted time is
+/// within the motion; returns nullopt if they are too few.
+std::optional<Hypothesis> timeShift(const Scenario& scenario, const TorqueResidual& data);
+
+/// Tries efforts of an engine whose soft constraints close the loops, as mj_inverse has them: open loops, with forces
+/// in proportion to J̇ u. One number per leg is fitted. Returns nullopt if a leg's number is not positive or has no
+/// effect.
+std::optional<Hypothesis> softLoops(const Scenario& scenario, const TorqueResidual& data);
+
+/// Tries every vector of the machine with all its entries wrong: gravity, mass centres, points, axes. It fits two or
+/// three numbers each, and drops those that leave more than a thousandth.
+std::vector<Hypothesis> fitVectors(const Scenario& scenario, const TorqueResidual& data);
+
+}  // namespace ursula
