@@ -227,9 +227,11 @@ TEST(NamedCause, tiesAreLeftOpenUnlessTheySayTheSame) {
   EXPECT_FALSE(open.named);
   EXPECT_EQ(open.others.size(), 2U);
   const NamedCause frame{CauseKind::frame, "gravity", "all"}, of_platform{CauseKind::frame, "gravity", "platform"};
-  const Explanation likelier = named({hypothesis(missing), hypothesis(frame), hypothesis(frame)}, data, "");
+  const NamedCause point{CauseKind::reference_point, "gravity", "all"};
+  const Explanation likelier =
+      named({hypothesis(missing), hypothesis(frame), hypothesis(point), hypothesis(frame)}, data, "");
   EXPECT_EQ(likelier.named.value().kind, CauseKind::missing_term);
-  EXPECT_EQ(likelier.others.size(), 1U) << "each is listed once";
+  EXPECT_EQ(likelier.others.size(), 2U) << "each is listed once";
   EXPECT_FALSE(named({hypothesis(missing), hypothesis(of_platform)}, data, "").named) << "of another body";
   data.motions = {one, one};
   EXPECT_FALSE(named({hypothesis(missing)}, data, "").named);

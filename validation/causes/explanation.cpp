@@ -38,10 +38,10 @@ bool sayTheSame(const NamedCause& first, const NamedCause& other) {
          other.parameter.compare(0, first.parameter.size(), first.parameter) == 0 && !first.parameter.empty();
 }
 
-/// Whether a term left out is a tie with a rarer mistake of the same term: a carriage's weight across its rail.
+/// Whether a term left out is a tie with a rarer mistake of the same term: weights across rails, or at fixed joints.
 bool isLikelier(const NamedCause& first, const NamedCause& other) {
-  return first.kind == CauseKind::missing_term && other.kind == CauseKind::frame && first.term == other.term &&
-         first.body == other.body;
+  const bool is_rare = other.kind == CauseKind::frame || other.kind == CauseKind::reference_point;
+  return first.kind == CauseKind::missing_term && is_rare && first.term == other.term && first.body == other.body;
 }
 
 bool areEqual(const NamedCause& a, const NamedCause& b) {
