@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "nocsolver/errors.h"
 #include "validation/limits/conditioning.h"
 #include "validation/mistakes/machine_slopes.h"
 #include "validation/mistakes/tied_parameters.h"
@@ -95,7 +96,11 @@ void MachineCauses::addFixed(const CauseName& name, const std::function<void(Mac
   causes.back().rounding = [&scenario, change](const Motion<double>& motion) {
     Machine machine = scenario.manipulator->parameters();
     change(machine);
-    return ConditioningProbe(withoutStroke(Manipulator(machine)), scenario.load).at(motion).torqueRounding();
+    try {  // its own numbers round less than those without strokes
+      return ConditioningProbe(Manipulator(machine), scenario.load).at(motion).torqueRounding();
+    } catch (const PoseError&) {
+      return ConditioningProbe(withoutStroke(Manipulator(machine)), scenario.load).at(motion).torqueRounding();
+    }
   };
 }
 
