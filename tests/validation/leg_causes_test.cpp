@@ -71,6 +71,7 @@ Matrix3d turnAbout(double degrees) {
   return Eigen::AngleAxisd(degrees * M_PI / 180, Vector3d::UnitZ()).toRotationMatrix();
 }
 
+/// The mass centre is a number of the dynamics, and off more often than the length.
 TEST(LegCause, aRodsLengthAndMassCentreAreOneNumberAndBothSaid) {
   for (const LegChange& change :
        {ofEachLeg([](Leg& leg) { leg.distal.center_of_mass += 0.1; }), ofEachLeg([](Leg& leg) {
@@ -78,12 +79,12 @@ TEST(LegCause, aRodsLengthAndMassCentreAreOneNumberAndBothSaid) {
           leg.proximal.length += 1;
         })}) {
     const Diagnosis tied = saidOf(change);
-    EXPECT_FALSE(tied.named) << tied.cause;
+    ASSERT_TRUE(tied.named) << tied.cause;
+    EXPECT_EQ(tied.named->parameter, "manipulator.leg_defaults.distal.center_of_mass");
     EXPECT_THAT(tied.cause, testing::HasSubstr("mass centre of the distal links 0.6 "));
     EXPECT_THAT(tied.cause, testing::HasSubstr("length of the distal links 0.9 "));
-    ASSERT_EQ(tied.others.size(), 2u) << tied.cause;
+    ASSERT_EQ(tied.others.size(), 1u) << tied.cause;
     EXPECT_EQ(tied.others[0].parameter, "manipulator.leg_defaults.distal.length");
-    EXPECT_EQ(tied.others[1].parameter, "manipulator.leg_defaults.distal.center_of_mass");
   }
   const Diagnosis alone = saidOf(ofEachLeg([](Leg& leg) { leg.proximal.center_of_mass += 0.1; }));
   ASSERT_TRUE(alone.named) << alone.cause;

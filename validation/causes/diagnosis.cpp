@@ -115,8 +115,8 @@ bool explains(const Hypothesis& one) {
 }
 
 /// Returns the best hypotheses: all that explain everything, otherwise all near the smallest remainder. Those with
-/// fewest fitted numbers come first, then the most plausible ones. Numbers that no body can have are left out beside
-/// others.
+/// fewest fitted numbers come first, then the most plausible ones; a length comes after what has the same effect.
+/// Numbers that no body can have are left out beside others.
 std::vector<Hypothesis> bestOf(const std::vector<Hypothesis>& fitted) {
   const auto least = std::min_element(fitted.begin(), fitted.end(), [](const Hypothesis& a, const Hypothesis& b) {
     return a.unexplained < b.unexplained;
@@ -128,8 +128,11 @@ std::vector<Hypothesis> bestOf(const std::vector<Hypothesis>& fitted) {
   const auto is_possible = [](const Hypothesis& one) { return one.is_possible; };
   if (std::any_of(out.begin(), out.end(), is_possible))
     out.erase(std::stable_partition(out.begin(), out.end(), is_possible), out.end());
+  const auto order = [](const Hypothesis& one) {
+    return std::pair(one.free_numbers, one.named && isLength(*one.named));
+  };
   std::stable_sort(out.begin(), out.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.free_numbers < b.free_numbers; });
+                   [&](const Hypothesis& a, const Hypothesis& b) { return order(a) < order(b); });
   while (out.back().free_numbers > std::max(1, out.front().free_numbers)) out.pop_back();
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -38,8 +39,10 @@ bool sayTheSame(const NamedCause& first, const NamedCause& other) {
          other.parameter.compare(0, first.parameter.size(), first.parameter) == 0 && !first.parameter.empty();
 }
 
-/// Whether a term left out is a tie with a rarer mistake of the same term: weights across rails, or at fixed joints.
+/// Whether a cause is a tie with a rarer one: a term left out with another mistake of the same term (weights across
+/// rails, or at fixed joints), and the mass centre of a rod that slides with its length.
 bool isLikelier(const NamedCause& first, const NamedCause& other) {
+  if (isLength(other) && !isLength(first) && first.kind == other.kind && first.body == other.body) return true;
   const bool is_rare = other.kind == CauseKind::frame || other.kind == CauseKind::reference_point;
   return first.kind == CauseKind::missing_term && is_rare && first.term == other.term && first.body == other.body;
 }
@@ -65,6 +68,11 @@ void leaveOutOtherLinks(const std::vector<Hypothesis>& best, NamedCause& named) 
 }
 
 }  // namespace
+
+bool isLength(const NamedCause& cause) {
+  const std::string_view end = ".length", path = cause.parameter;
+  return path.size() > end.size() && path.substr(path.size() - end.size()) == end;
+}
 
 Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& data, std::string text) {
   Explanation out{std::move(text)};

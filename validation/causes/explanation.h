@@ -16,6 +16,9 @@ struct Explanation {
   std::vector<NamedCause> others = {};
 };
 
+/// Whether a cause is the length of a link.
+bool isLength(const NamedCause& cause);
+
 /// All of `best` explain everything. The first is named unless another needs as few numbers, or the motion is a single
 /// pose. No cause is better than a wrong one.
 Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& data, std::string text);
