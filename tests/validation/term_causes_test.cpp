@@ -136,7 +136,7 @@ Scenario withRotors() {
 std::vector<Cause> causesLike(const Scenario& scenario, const std::string& words) {
   std::vector<Cause> out;
   for (const auto& causes :
-       {termCauses, jacobianCauses, loopCauses, slidingCauses, rateCauses, motionCauses, machineCauses})
+       {termCauses, jointCauses, jacobianCauses, loopCauses, slidingCauses, rateCauses, motionCauses, machineCauses})
     for (const Cause& cause : causes(scenario))
       if (cause.words(0, 0).find(words) != std::string::npos) out.push_back(cause);
   return out;
@@ -179,12 +179,14 @@ INSTANTIATE_TEST_SUITE_P(
         "Coriolis acceleration doubled in the joints' accelerations and the rods'",
         "the Coriolis acceleration of the distal links doubled", "the gyroscopic moment of the links doubled",
         "the smoothing speed of Coulomb friction, on angles and on d",
-        "accelerations without the rate of the Jacobian of legs and platform",
+        "joint accelerations without the rate of the Jacobian of legs and platform",
         "second rates of roll, pitch and yaw without the rate", "roll, pitch and yaw turned in the other order",
         "x, y, z turned in the other order", "the position of the platform's mass centre taken for that of P",
         "m |rho|^2 added to every moment", "the load's point with the wrong sign", "half of omega and its rate",
         "the arm of the platform's weight not turned", "weights of the distal links put at their first joints",
-        "that comes from turning left out", "inertia of the platform read in the order xx, yy, zz, xy, yz, xz"),
+        "that comes from turning left out", "inertia of the platform read in the order xx, yy, zz, xy, yz, xz",
+        "Coulomb friction of the rates' sizes",
+        "the rotors' accelerations without the rate of the Jacobian of the legs"),
     [](const auto& each) { return "n" + std::to_string(each.index); });
 
 /// A solver that reads the motion wrongly, and whose legs have no end of stroke.

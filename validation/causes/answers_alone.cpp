@@ -108,7 +108,95 @@ bool isMotorRight(const ExternalTorques& torques, int i) {
   return true;
 }
 
+/// A motor's efforts, and those that are cut off along the motion.
+struct Range {
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  std::vector<double> cut;
+
+  /// Whether the answer is that of right efforts beyond the range.
+  bool isCut(double answer, double right, double limit) const {
+    const double equal = 1e-12 * std::max(std::abs(least), std::abs(most));
+    return (std::abs(answer - most) <= equal && right > most - limit) ||
+           (std::abs(answer - least) <= equal && right < least + limit);
+  }
+};
+
+/// The range of one motor; none if it is wrong within it.
+std::optional<Range> rangeOf(const ExternalTorques& torques, const AskedApart& asked, int i) {
+  Range out;
+  const auto reach = [&](double answer) {
+    out.least = std::min(out.least, answer);
+    out.most = std::max(out.most, answer);
+  };
+  for (const Vector6d& answer : torques.file.torques) reach(answer(i));
+  for (const Vector6d& answer : asked.found) reach(answer(i));
+  for (std::size_t k = 0; k < torques.file.rows(); ++k) {
+    const double limit = limitAt(torques, k, i);
+    if (std::abs(offAt(torques, k, i)) <= limit) continue;
+    if (!out.isCut(torques.file.torques[k](i), torques.noc[k](i), limit)) return std::nullopt;
+    out.cut.push_back(torques.file.torques[k](i));
+  }
+  for (std::size_t k = 0; k < asked.found.size(); ++k)
+    if (!(std::abs(asked.found[k](i) - asked.expected[k](i)) <= asked.rounding[k]) &&
+        !out.isCut(asked.found[k](i), asked.expected[k](i), asked.rounding[k]))
+      return std::nullopt;
+  return out;
+}
+
+/// Whether each occurs three times, with any sign: once or twice it may be the largest by chance.
+bool areRepeated(const std::vector<double>& efforts) {
+  constexpr int enough = 3;
+  return std::all_of(efforts.begin(), efforts.end(), [&](double one) {
+    return std::count_if(efforts.begin(), efforts.end(), [one](double other) {
+             return std::abs(std::abs(other) - std::abs(one)) <= 1e-12 * std::abs(one);
+           }) >= enough;
+  });
+}
+
 }  // namespace
+
+bool isRight(const ExternalTorques& torques, std::size_t row) {
+  for (int i = 0; i < motor_count; ++i)
+    if (!(std::abs(offAt(torques, row, i)) <= limitAt(torques, row, i))) return false;
+  return true;
+}
+
+std::vector<int> wrongMotors(const ExternalTorques& torques) {
+  std::vector<int> out;
+  for (int i = 0; i < motor_count; ++i)
+    if (!isMotorRight(torques, i)) out.push_back(i);
+  return out;
+}
+
+std::optional<Explanation> cutOff(const MotorNames& motors, const ExternalTorques& torques, const AskedApart& asked) {
+  std::vector<int> which;
+  std::string text;
+  std::size_t right = 0;
+  std::vector<double> all;
+  for (int i = 0; i < motor_count; ++i) {
+    const std::optional<Range> range = rangeOf(torques, asked, i);
+    if (!range) return std::nullopt;
+    if (range->cut.empty()) continue;
+    all.insert(all.end(), range->cut.begin(), range->cut.end());
+    which.push_back(i);
+    text += fmt::format("{}{:.6g} to {:.6g} {} of {}", text.empty() ? "" : ", ", range->least, range->most,
+                        motors.unit(i), motors(i));
+  }
+  if (!areRepeated(all)) return std::nullopt;
+  Explanation out{"cut off, and right within the range: " + text, NamedCause{CauseKind::window}};
+  for (std::size_t k = 0; k < torques.file.rows(); ++k) {
+    if (isRight(torques, k)) {
+      ++right;
+      continue;
+    }
+    if (!out.named->from_s) out.named->from_s = torques.file.t[k];
+    out.named->to_s = torques.file.t[k];
+  }
+  if (which.empty() || 10 * right < torques.file.rows()) return std::nullopt;
+  out.named->explained = 1;
+  nameMotors(which, *out.named);
+  return out;
+}
 
 std::optional<Explanation> sameAnswers(const MotorNames& motors, const ExternalTorques& torques,
                                        const AskedApart& asked) {
@@ -130,11 +218,9 @@ std::optional<Explanation> sameAnswers(const MotorNames& motors, const ExternalT
   const bool all = which.size() == motor_count;
   if (!zeros) return Explanation{fmt::format("the same answer {}: {}", when, text)};
   Explanation out{all ? fmt::format("zero for every motor {}", when) : fmt::format("zero {}: {}", when, text),
-                  NamedCause{CauseKind::scale, "", all ? "all" : "", "", "", 1.0, 0.0}};
+                  NamedCause{CauseKind::scale, "", "", "", "", 1.0, 0.0}};
   out.named->explained = 1;
-  if (which.size() == 1) out.named->motor = which.front() + 1;
-  if (which.size() > 1 && !all)
-    for (const int motor : which) out.named->legs.push_back(motor + 1);
+  nameMotors(which, *out.named);
   return out;
 }
 
@@ -145,6 +231,22 @@ std::optional<Explanation> fewDigits(const MotorNames& motors, const ExternalTor
   if (asked.motions.empty()) return std::nullopt;  // a file's limits include its digits
   if (const auto found = rounded(motors, torques)) return found;
   return grainy(motors, torques, asked);
+}
+
+double changedWhenAskedAgain(const ExternalTorques& torques, const AskedApart& asked) {
+  constexpr double may_be_rounding = 2;  // the limits of both answers
+  double change = 0, largest = 0;
+  for (std::size_t k = 0; k < torques.file.rows(); ++k) {
+    const Vector6d& answer = torques.file.torques[k];
+    largest = std::max({largest, torques.noc[k].cwiseAbs().maxCoeff(), answer.cwiseAbs().maxCoeff()});
+    const double growth = std::max(1.0, answer.norm() / std::max(torques.noc[k].norm(), 1e-300));
+    for (std::size_t j = 0; j < asked.again.size(); ++j) {
+      if (asked.again_t[j] != torques.file.t[k]) continue;
+      const double off = (asked.again[j] - answer).cwiseAbs().maxCoeff();
+      if (off > may_be_rounding * growth * roundingAt(torques, k)) change = std::max(change, off);
+    }
+  }
+  return largest > 0 ? change / largest : 0;
 }
 
 ExternalTorques inEveryDigit(ExternalTorques torques) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "validation/causes/asked_apart.h"
 #include "validation/causes/explanation.h"
@@ -19,6 +20,11 @@ inline double limitAt(const ExternalTorques& torques, std::size_t row, int motor
   return roundingAt(torques, row) + torques.precision[row](motor);
 }
 
+/// Whether all motors are right at an instant.
+bool isRight(const ExternalTorques& torques, std::size_t row);
+/// The motors that are wrong at some instant, 0-based.
+std::vector<int> wrongMotors(const ExternalTorques& torques);
+
 /// Explains efforts that lack only digits. These are single-precision numbers. From a solver they are also rounded
 /// answers, and answers to nearly the same question that jump by about the deviation. Returns none for larger
 /// deviations.
@@ -28,6 +34,14 @@ std::optional<Explanation> fewDigits(const MotorNames& motors, const ExternalTor
 /// The others must be right. Returns none otherwise.
 std::optional<Explanation> sameAnswers(const MotorNames& motors, const ExternalTorques& torques,
                                        const AskedApart& asked);
+
+/// Explains efforts that never leave a range of a motor's own, and are right wherever the right ones are within it.
+/// Returns none otherwise.
+std::optional<Explanation> cutOff(const MotorNames& motors, const ExternalTorques& torques, const AskedApart& asked);
+
+/// By how much answers along the motion change when they are asked again one by one, relative to the largest effort; 0
+/// if it may be rounding.
+double changedWhenAskedAgain(const ExternalTorques& torques, const AskedApart& asked);
 
 /// Removes the allowance for unprinted digits, because a solver's answers have every digit.
 ExternalTorques inEveryDigit(ExternalTorques torques);

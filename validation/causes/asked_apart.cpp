@@ -143,6 +143,10 @@ AskedApart askedApart(const Subject& subject, const Scenario& scenario, const st
   try {
     found = answersOf(subject, poses);
     out.grain = grainOf(subject, poses);
+    for (std::size_t k = poses.at.size(); k-- > 0;) {
+      out.again_t.push_back(poses.at[k].t);
+      out.again.push_back(subject.torques(poses.at[k]));
+    }
     expected = answersOf(nocSubject(*scenario.manipulator, scenario.load), poses);
   } catch (const std::exception&) {  // no answer to questions outside the motion
     return {};

@@ -16,6 +16,9 @@ struct AskedApart {
   std::vector<TermError> terms;           ///< relative errors of the parts of its efforts
   /// By how much its answers to nearly the same question jump, N·m or N: more than rounding where digits are lost.
   double grain = 0;
+  /// Its answers when instants of the motion are asked again one by one: N·m or N.
+  std::vector<double> again_t = {};
+  std::vector<Vector6d> again = {};
 };
 
 /// Asks separate questions at poses of `motions` and compares each part of the efforts with the NOC's. The parts are

@@ -156,12 +156,6 @@ std::string othersText(const std::vector<Hypothesis>& best) {
   return out;
 }
 
-bool isRight(const ExternalTorques& torques, std::size_t k) {
-  for (int i = 0; i < motor_count; ++i)
-    if (!(std::abs(offAt(torques, k, i)) <= limitAt(torques, k, i))) return false;
-  return true;
-}
-
 /// The instants from the first to the last deviating one.
 struct Window {
   std::size_t off = 0, first = 0, last = 0;
@@ -210,6 +204,7 @@ Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torqu
   if (!answersRightOutside(data, before, after)) return {};
   Explanation out{fmt::format("right but from t = {:.6g} to {:.6g} s", from, to)};
   out.named = NamedCause{CauseKind::window};
+  nameMotors(wrongMotors(torques), *out.named);
   out.named->from_s = from;
   out.named->to_s = to;
   out.named->explained = 1;
@@ -250,7 +245,8 @@ Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torqu
   const TorqueResidual data = residualOf(scenario, torques, asked);
   const std::vector<Hypothesis> fitted = fitHypotheses(scenario, data);
   if (fitted.empty()) return {"no simple explanation"};
-  const std::vector<Hypothesis> best = bestOf(fitted);
+  std::vector<Hypothesis> best = bestOf(fitted);
+  putNarrowerFirst(best);
   const Hypothesis& first = best.front();
   const std::string how_much = fmt::format("{}, which explains {}", first.text, percent(first.explained()));
   if (explains(first)) return named(best, data, how_much + othersText(best));
@@ -277,11 +273,14 @@ Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques, con
     out.deviation += fmt::format("; off in {} of {} samples, {:.3g} %", off, torques.file.rows(),
                                  100.0 * static_cast<double>(off) / static_cast<double>(torques.file.rows()));
   const std::optional<Explanation> same = sameAnswers(motors, torques, asked);
-  Explanation explanation = same ? *same : digits ? *digits : explanationOf(scenario, torques, asked);
+  const std::optional<Explanation> cut = same ? same : digits ? digits : cutOff(motors, torques, asked);
+  Explanation explanation = cut ? *cut : explanationOf(scenario, torques, asked);
   out.cause = std::move(explanation.text);
   out.named = std::move(explanation.named);
   out.others = std::move(explanation.others);
   out.terms = asked.terms;
+  for (TermError& term : out.terms)
+    if (term.term == repeat_term) term.error = std::max(term.error, changedWhenAskedAgain(torques, asked));
   return out;
 }
 

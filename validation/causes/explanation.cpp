@@ -54,14 +54,11 @@ bool areEqual(const NamedCause& a, const NamedCause& b) {
   return fields(a) == fields(b);
 }
 
-/// Does not blame the other links if their mass centres make no difference. Of a term it names no body if several would
-/// do.
+/// Of a term it names no body if several would do.
 void leaveOutOtherLinks(const std::vector<Hypothesis>& best, NamedCause& named) {
   const std::string body = named.body;
   for (const Hypothesis& one : best) {
     if (!one.named || !sayTheSame(named, *one.named)) continue;
-    const bool is_link = one.named->body == "proximal" || one.named->body == "distal";
-    if (named.kind == CauseKind::reference_point && body == "legs" && is_link) named.body = one.named->body;
     if (named.kind == CauseKind::missing_term && one.named->kind == named.kind && one.named->body != body)
       named.body.clear();
   }
@@ -72,6 +69,16 @@ void leaveOutOtherLinks(const std::vector<Hypothesis>& best, NamedCause& named) 
 bool isLength(const NamedCause& cause) {
   const std::string_view end = ".length", path = cause.parameter;
   return path.size() > end.size() && path.substr(path.size() - end.size()) == end;
+}
+
+void putNarrowerFirst(std::vector<Hypothesis>& best) {
+  const std::optional<NamedCause> named = best.front().named;
+  if (!named || named->kind != CauseKind::reference_point || named->body != "legs") return;
+  const auto narrower = std::find_if(best.begin(), best.end(), [&](const Hypothesis& one) {
+    return one.named && sayTheSame(*named, *one.named) &&
+           (one.named->body == "proximal" || one.named->body == "distal");
+  });
+  if (narrower != best.end()) std::rotate(best.begin(), narrower, narrower + 1);
 }
 
 Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& data, std::string text) {

@@ -19,6 +19,9 @@ struct Explanation {
 /// Whether a cause is the length of a link.
 bool isLength(const NamedCause& cause);
 
+/// Puts mass centres of either links before such of both if the others' make no difference.
+void putNarrowerFirst(std::vector<Hypothesis>& best);
+
 /// All of `best` explain everything. The first is named unless another needs as few numbers, or the motion is a single
 /// pose. No cause is better than a wrong one.
 Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& data, std::string text);

@@ -62,7 +62,8 @@ std::optional<NamedCause> namedScale(const TorqueTerm& term, double factor) {
   if (term.name == "gravity")
     return NamedCause{CauseKind::parameter, "gravity", "all", "manipulator.gravity", "m/s^2", term.size,
                       term.size * factor};
-  return NamedCause{CauseKind::scale, term.term, term.body, "", "", 1, factor};
+  const CauseKind kind = inDegrees(factor).empty() ? CauseKind::scale : CauseKind::units;
+  return NamedCause{kind, term.term, term.body, "", "", 1, factor};
 }
 
 /// residual = c · term: the torques contain (1 + c) times the term.
@@ -105,11 +106,10 @@ Hypothesis perLeg(const TorqueResidual& data, const Vector6d& fitted, const Rows
     if (std::abs(fitted(i)) > 0.01 * fitted.cwiseAbs().maxCoeff()) legs.push_back(i);
   for (int i : legs) text += fmt::format("{}{} on {}", text.empty() ? "" : ", ", show(fitted(i), i), data.motors(i));
   Hypothesis out = hypothesis(data, what + text, minus(data.residual, predicted, 1), motor_count);
+  nameMotors(legs, named);
   if (legs.size() == 1) {
-    named.motor = legs.front() + 1;
     named.found = *named.expected + fitted(legs.front());
   } else {
-    for (const int leg : legs) named.legs.push_back(leg + 1);
     named.expected.reset();
   }
   out.named = named;
@@ -125,6 +125,29 @@ std::optional<Hypothesis> offsets(const TorqueResidual& data) {
       "a constant offset: ", NamedCause{CauseKind::offset, "", "", "", "", 0.0});
 }
 
+/// Names the unit if it is that of all moments or of all forces alone.
+void nameUnit(const MotorNames& motors, const Vector6d& c, Hypothesis& out) {
+  constexpr double little = 1e-6;
+  for (const bool forces : {false, true}) {
+    MotorNames of = motors;
+    of.slides.fill(forces);
+    const auto first = std::find(motors.slides.begin(), motors.slides.end(), forces) - motors.slides.begin();
+    if (first == motor_count || motors.slides == of.slides) continue;
+    const double factor = 1 + c(first);
+    bool alike = true;
+    for (int i = 0; i < motor_count; ++i) {
+      const double right = motors.slides[static_cast<std::size_t>(i)] == forces ? factor : 1;
+      alike = alike && std::abs(1 + c(i) - right) <= little * std::abs(right);
+    }
+    if (const std::string unit = unitOf(factor, of); alike && !unit.empty()) {
+      out.text += " (" + unit + ")";
+      out.named->kind = CauseKind::units;
+      out.named->expected = 1;
+      out.named->found = factor;
+    }
+  }
+}
+
 std::optional<Hypothesis> gains(const TorqueResidual& data) {
   Vector6d over = Vector6d::Zero(), under = Vector6d::Zero();
   for (std::size_t k = 0; k < data.exact.size(); ++k) {
@@ -134,10 +157,12 @@ std::optional<Hypothesis> gains(const TorqueResidual& data) {
   const Vector6d c = (under.array() > 0).select(over.cwiseQuotient(under), 0);
   Rows predicted;
   for (const Vector6d& row : data.exact) predicted.push_back(c.cwiseProduct(row));
+  TorqueResidual wider = data;  // rounding grows with the torques
+  for (Vector6d& row : wider.limit) row.array() *= (1 + c.array()).abs().cwiseMax(1.0);
   Hypothesis out = perLeg(
-      data, c, predicted, [](double value, int) { return "a factor of " + factorText(value); }, "",
+      wider, c, predicted, [](double value, int) { return "a factor of " + factorText(value); }, "",
       NamedCause{CauseKind::scale, "", "", "", "", 1.0});
-  out.beyond /= std::max(1.0, (1 + c.array()).abs().maxCoeff());  // rounding grows with the torques
+  nameUnit(data.motors, c, out);
   return out;
 }
 
@@ -239,7 +264,8 @@ std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResi
     if (term.fixed) add(scaledTerm(data, term));
   if (data.exact.size() >= 3) add(softLoops(scenario, data));
   std::vector<Cause> causes = machineCauses(scenario);
-  for (const auto& more : {motionCauses, rateCauses, termCauses, slidingCauses, jacobianCauses, loopCauses})
+  for (const auto& more :
+       {motionCauses, rateCauses, termCauses, jointCauses, slidingCauses, jacobianCauses, loopCauses})
     for (Cause& cause : more(scenario)) causes.push_back(std::move(cause));
   if (data.commanded == data.motions.size())  // and the solver was not asked at other instants
     for (Cause& cause : differenceCauses(scenario, data.instants)) causes.push_back(std::move(cause));

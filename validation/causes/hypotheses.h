@@ -26,6 +26,9 @@ struct MotorNames {
 };
 MotorNames motorNames(const Manipulator& machine);
 
+/// Says in a cause which motors, 0-based, it is about: one, some or all.
+void nameMotors(const std::vector<int>& motors, NamedCause& cause);
+
 /// Torques that differ from the exact ones, for an explanation.
 struct TorqueResidual {
   std::vector<Motion<double>> motions;

@@ -99,14 +99,18 @@ NamedCause namedOrder(const std::vector<int>& from, const std::vector<int>& flip
     for (const int leg : from) out.legs.push_back(leg + 1);
     return out;
   }
-  if (flipped.size() == motor_count) out.body = "all";
-  if (flipped.size() == 1) out.motor = flipped.front() + 1;
-  if (flipped.size() > 1 && flipped.size() < motor_count)
-    for (const int motor : flipped) out.legs.push_back(motor + 1);
+  nameMotors(flipped, out);
   return out;
 }
 
 }  // namespace
+
+void nameMotors(const std::vector<int>& motors, NamedCause& cause) {
+  if (motors.size() == 1) cause.motor = motors.front() + 1;
+  if (motors.size() == motor_count) cause.body = "all";
+  if (motors.size() > 1 && motors.size() < motor_count)
+    for (const int motor : motors) cause.legs.push_back(motor + 1);
+}
 
 std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data) {
   const double unit = unitFactor(data);

@@ -136,6 +136,30 @@ void addExchanged(MachineCauses& out) {
   });
 }
 
+/// The links of one leg exchanged.
+void addExchangedOf(int legs, MachineCauses& out) {
+  for (int i = 0; i < legs; ++i) {
+    NamedCause named{CauseKind::parameter, "", "legs", fmt::format("manipulator.leg.{}", i + 1)};
+    named.leg = i + 1;
+    out.addFixed({fmt::format("proximal and distal link of leg {} exchanged, but for their lengths", i + 1), named},
+                 [i](Machine& machine) {
+                   Leg& leg = machine.legs[static_cast<std::size_t>(i)];
+                   std::swap(leg.proximal, leg.distal);
+                   std::swap(leg.proximal.length, leg.distal.length);
+                 });
+  }
+}
+
+/// Links that spin freely, held at the universal joint.
+void addHeld(const Machine& given, MachineCauses& out) {
+  out.addFixed({"links that spin freely taken as held by their universal joints",
+                NamedCause{CauseKind::missing_term, "spin", "legs"}},
+               [given](Machine& machine) {
+                 machine = given;
+                 for (Leg& leg : machine.legs) leg.spins = false;
+               });
+}
+
 /// Legs with a knee.
 std::vector<std::size_t> bentLegs(const Manipulator& machine) {
   std::vector<std::size_t> out;
@@ -227,6 +251,8 @@ std::vector<Cause> machineCauses(const Scenario& scenario) {
   addInertias(out);
   addExchanged(out);
   addOtherEnds(scenario.manipulator->legCount(), out);
+  addExchangedOf(scenario.manipulator->legCount(), out);
+  addHeld(scenario.manipulator->given(), out);
   addKnees(*scenario.manipulator, out);
   addRotors(scenario, out);
   addPointCauses(*scenario.manipulator, out);

@@ -1,5 +1,7 @@
 #include "validation/mistakes/machine_collector.h"
 
+#include <algorithm>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -41,6 +43,16 @@ Rows torquesOfInertias(const Scenario& scenario, const Change& change, double x,
   change(round, x / 11);  // relative errors refer to the largest moment, which is eleven times as large
   const Rows with = torquesOf(round, scenario, motions);
   for (std::size_t k = 0; k < out.size(); ++k) out[k] += with[k] - without[k];
+  return out;
+}
+
+/// All legs, without numbers. If there are several kinds, also " of the URS legs" with their numbers.
+std::map<std::string, std::vector<int>> kindsOf(const Manipulator& machine) {
+  std::map<std::string, std::vector<int>> out;
+  for (int i = 0; i < machine.legCount(); ++i)
+    out[std::string(" of the ") + rowOf(machine.leg(i).kind).name + " legs"].push_back(i + 1);
+  if (out.size() < 2) out.clear();
+  out[""] = {};
   return out;
 }
 
@@ -108,14 +120,18 @@ void MachineCauses::addLinks(const std::string& before, const std::string& after
                              const std::function<void(Link&)>& change) {
   const std::pair<const char*, const char*> links[] = {
       {"the proximal links", "proximal"}, {"the distal links", "distal"}, {"all links", "legs"}};
-  for (const int which : {2, 0, 1})
-    addFixed({before + links[which].first + after, NamedCause{kind, term, links[which].second}},
-             [change, which](Machine& machine) {
-               for (Leg& leg : machine.legs) {
-                 if (which != 1) change(leg.proximal);
-                 if (which != 0) change(leg.distal);
-               }
-             });
+  for (const auto& [of, legs] : kindsOf(*scenario_.manipulator))
+    for (const int which : {2, 0, 1}) {
+      NamedCause named{kind, term, links[which].second};
+      named.legs = legs;
+      addFixed({before + links[which].first + of + after, named}, [change, which, legs = legs](Machine& machine) {
+        for (std::size_t i = 0; i < machine.legs.size(); ++i) {
+          if (!legs.empty() && std::find(legs.begin(), legs.end(), static_cast<int>(i) + 1) == legs.end()) continue;
+          if (which != 1) change(machine.legs[i].proximal);
+          if (which != 0) change(machine.legs[i].distal);
+        }
+      });
+    }
 }
 
 void EffortCauses::add(const std::string& text, const NamedCause& named, const EffortChange& change,

@@ -25,7 +25,8 @@ class MachineCauses {
   void addTied(const TiedParameters& tied);
   /// The effect of the change counts `times`: twice if a change that removes a term stands for its wrong sign.
   void addFixed(const CauseName& name, const std::function<void(ManipulatorParameters&)>& change, double times = 1);
-  /// Adds a change of all links, of the proximal ones and of the distal ones. `kind` and `term` name it.
+  /// Adds a change of all links, of the proximal ones and of the distal ones, also of each kind of leg alone. `kind`
+  /// and `term` name it.
   void addLinks(const std::string& before, const std::string& after, CauseKind kind, const char* term,
                 const std::function<void(Link&)>& change);
 

@@ -59,6 +59,10 @@ class EffortCauses {
 /// sign; tensors use other frames or points; the links' spin is missing. `scenario` must outlive them.
 std::vector<Cause> termCauses(const Scenario& scenario);
 
+/// Mistakes in a leg's own coordinates: friction without signs, rotors without the Jacobian's rate, a wrong or
+/// damped inverse of its Jacobian, rates of distal links relative to the proximal ones. `scenario` must outlive them.
+std::vector<Cause> jointCauses(const Scenario& scenario);
+
 /// A wrong Jacobian, or moments about the wrong point. `scenario` must outlive them.
 std::vector<Cause> jacobianCauses(const Scenario& scenario);
 

@@ -149,7 +149,7 @@ double lengthUnit(const Manipulator& machine, double length) {
 
 Scenario relocated(const Scenario& scenario, const Vector3d& origin) {
   Scenario out = scenario;
-  ManipulatorParameters machine = scenario.manipulator->parameters();
+  ManipulatorParameters machine = scenario.manipulator->given();
   for (Leg& leg : machine.legs) leg.base_point -= origin;
   out.manipulator = std::make_shared<const Manipulator>(machine);
   out.trajectory = shifted(scenario.trajectory, origin);
