@@ -40,8 +40,11 @@ bool sayTheSame(const NamedCause& first, const NamedCause& other) {
 }
 
 /// Whether a cause is a tie with a rarer one: a term left out with another mistake of the same term (weights across
-/// rails, or at fixed joints), and the mass centre of a rod that slides with its length.
+/// rails, or at fixed joints), the mass centre of a rod that slides with its length, and an inertia about a fixed joint
+/// with a doubled force of inertia.
 bool isLikelier(const NamedCause& first, const NamedCause& other) {
+  if (first.kind == CauseKind::reference_point && other.kind == CauseKind::scale && first.body == other.body)
+    return true;
   if (isLength(other) && !isLength(first) && first.kind == other.kind && first.body == other.body) return true;
   const bool is_rare = other.kind == CauseKind::frame || other.kind == CauseKind::reference_point;
   return first.kind == CauseKind::missing_term && is_rare && first.term == other.term && first.body == other.body;
