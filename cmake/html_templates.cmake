@@ -1,11 +1,11 @@
 # Makes the folder's templates of HTML constants of the target: name.html is the std::string_view name_html in the
 # namespace. A line break before an indented tag is layout and left out, and so is the last one; other line breaks are
-# the page's.
+# the page's. CMake must run again for a new template.
 find_path(URSULA_MUSTACHE kainjow/mustache.hpp REQUIRED)  # Debian's libkainjow-mustache-dev
 mark_as_advanced(URSULA_MUSTACHE)
 
 function(ursula_html_templates target namespace)
-  file(GLOB files CONFIGURE_DEPENDS *.html web/*.html)
+  file(GLOB files *.html web/*.html)
   set(constants "")
   foreach(file IN LISTS files)
     file(READ ${file} html)
