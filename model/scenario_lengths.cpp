@@ -48,9 +48,10 @@ std::size_t offsetOf(const std::string& text, const toml::source_position& place
   const auto follows = [&](std::size_t k) {
     return k < text.size() && (static_cast<unsigned char>(text[k]) & 0xC0) == 0x80;
   };
-  for (toml::source_index column = 1; column < place.column; ++column) do
-      ++at;
-    while (follows(at));
+  for (toml::source_index column = 1; column < place.column; ++column) {
+    ++at;
+    while (follows(at)) ++at;
+  }
   return at;
 }
 

@@ -39,8 +39,8 @@ std::optional<Explanation> sameAnswers(const MotorNames& motors, const ExternalT
 /// Returns none otherwise.
 std::optional<Explanation> cutOff(const MotorNames& motors, const ExternalTorques& torques, const AskedApart& asked);
 
-/// By how much answers along the motion change when they are asked again one by one, relative to the largest effort; 0
-/// if it may be rounding.
+/// Returns the largest change of an answer that is asked again alone, relative to the largest effort; 0 if it may be
+/// rounding.
 double changedWhenAskedAgain(const ExternalTorques& torques, const AskedApart& asked);
 
 /// Removes the allowance for unprinted digits, because a solver's answers have every digit.

@@ -57,8 +57,8 @@ bool areEqual(const NamedCause& a, const NamedCause& b) {
   return fields(a) == fields(b);
 }
 
-/// Of a term it names no body if several would do.
-void leaveOutOtherLinks(const std::vector<Hypothesis>& best, NamedCause& named) {
+/// Clears the body of a missing term if several bodies would do.
+void clearSharedBody(const std::vector<Hypothesis>& best, NamedCause& named) {
   const std::string body = named.body;
   for (const Hypothesis& one : best) {
     if (!one.named || !sayTheSame(named, *one.named)) continue;
@@ -102,7 +102,7 @@ Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& dat
   if (!is_alone) return out;
   out.named = out.others.front();
   out.others.erase(out.others.begin());
-  leaveOutOtherLinks(best, *out.named);
+  clearSharedBody(best, *out.named);
   return out;
 }
 

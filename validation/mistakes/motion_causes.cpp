@@ -83,10 +83,14 @@ void ofMassCentre(Motion<double>& motion, const Vector3d& rho, double sign) {
   motion.p_ddot += motion.omega_dot.cross(r) + motion.omega.cross(motion.omega.cross(r));
 }
 
+/// Returns a function that adds a cause for a motion that is read otherwise.
+auto readingsInto(const Scenario& scenario, std::vector<Cause>& out) {
+  return
+      [&](const CauseName& name, const MotionChange& change) { out.push_back(readOtherwise(scenario, name, change)); };
+}
+
 void addFrames(const Scenario& scenario, std::vector<Cause>& out) {
-  const auto add = [&](const CauseName& name, const MotionChange& change) {
-    out.push_back(readOtherwise(scenario, name, change));
-  };
+  const auto add = readingsInto(scenario, out);
   add({"Q taken for its transpose", NamedCause{CauseKind::frame, "orientation", "all"}},
       [](Motion<double>& motion) { motion.Q.transposeInPlace(); });
   add({"the quaternion read as x, y, z, w where it is w, x, y, z", NamedCause{CauseKind::frame, "orientation", "all"}},
@@ -164,9 +168,7 @@ void addFrames(const Scenario& scenario, std::vector<Cause>& out) {
 }
 
 void addLeftOut(const Scenario& scenario, std::vector<Cause>& out) {
-  const auto add = [&](const CauseName& name, const MotionChange& change) {
-    out.push_back(readOtherwise(scenario, name, change));
-  };
+  const auto add = readingsInto(scenario, out);
   add({"the angular acceleration left out", NamedCause{CauseKind::missing_term, "angular_acceleration", "all"}},
       [](Motion<double>& motion) { motion.omega_dot.setZero(); });
   add({"the acceleration of P left out", NamedCause{CauseKind::missing_term, "inertia", "all"}},

@@ -132,8 +132,8 @@ std::vector<TiedParameters> tiedParameters(const Manipulator& machine) {
     const bool is_link = !link.empty();
     add(of_legs, fmt::format("{} of {}leg {}", words, is_link ? "the " + link + " link of " : "", leg), one);
     add(all_legs, fmt::format("{} of {}", words, is_link ? "the " + link + " links" : "every leg"), one);
-    // Of a sliding rod only the mass centre's distance from the outer end matters: an error of its length has the same
-    // effect, and both are named. A cylinder's length has none.
+    // A sliding rod's length has an effect only through its mass centre's distance from the outer end. A cylinder's
+    // length has none.
     const bool is_sliding =
         link == "distal" && one.quantity == Quantity::length && rowOf(machine.leg(one.leg).kind).isTelescopic();
     if (!is_link || is_sliding) continue;
