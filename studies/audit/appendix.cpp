@@ -71,125 +71,95 @@ Derivatives<Scalar> betaByDifferences(const S& t) {
   return differentiated([&](const S& dt) { return Scalar(helix.beta(t + dt)); }, S("1e-5"));
 }
 
-Formula formula(const char* equation, const char* printed, const char* unit, Side as_printed, Side truth) {
-  Formula f;
-  f.equation = equation;
-  f.printed = printed;
-  f.unit = unit;
-  f.as_printed = std::move(as_printed);
-  f.truth = std::move(truth);
-  return f;
-}
+using Flat = Eigen::Matrix<S, 9, 1>;
 
-Formula quintic() {
-  Formula f = formula(
-      "(50), (51)", "β = Σ a_k t^k with a_0 … a_5", "rad, rad/s, rad/s²",
-      [](const ReferenceState&) {
-        const Helix h;
-        const auto start = betaByDifferences(S(0)), end = betaByDifferences(h.t_f);
-        return values(start.value, start.first, start.second, end.value, end.first, end.second);
+/// ω and ω̇ of the helix's frame, by differences.
+Values spin(At at) {
+  const auto d = differentiated(
+      [&](const S& dt) {
+        const M Q = Helix().Q(Helix().beta(at.t + dt));
+        return Flat(Eigen::Map<const Flat>(Q.data()));
       },
-      [](const ReferenceState&) {
-        const Helix h;
-        return values(h.beta_0, h.rate_0, h.acceleration_0, h.beta_f, h.rate_f, h.acceleration_f);
-      });
-  f.note = "Angle, rate and acceleration at both ends, none of them zero.";
-  return f;
+      S("1e-5"));
+  const M Q = Eigen::Map<const M>(d.value.data()), Q_dot = Eigen::Map<const M>(d.first.data());
+  const M Q_ddot = Eigen::Map<const M>(d.second.data());
+  return values(vect(Q_dot * Q.transpose()), vect(Q_ddot * Q.transpose() + Q_dot * Q_dot.transpose()));
 }
 
-Formula helixPoint() {
-  return formula(
-      "(49), (52)", "p; ṗ = m β̇, p̈ = m β̈ + n β̇²", "m/s, m/s²",
-      [](const ReferenceState& at) {
-        const Helix h;
-        const S beta = h.beta(at.t), rate = h.rate(at.t);
-        return values(V(h.m(beta) * rate), V(h.m(beta) * h.acceleration(at.t) + h.n(beta) * (rate * rate)));
-      },
-      [](const ReferenceState& at) {
-        const Helix h;
-        const auto d = differentiated([&](const S& dt) { return h.p(h.beta(at.t + dt)); }, S("1e-5"));
-        return values(d.first, d.second);
-      });
+/// The rates of p by (52), and by differences.
+Values ratesBy52(At at) {
+  const Helix h;
+  const S beta = h.beta(at.t), rate = h.rate(at.t);
+  return values(V(h.m(beta) * rate), V(h.m(beta) * h.acceleration(at.t) + h.n(beta) * (rate * rate)));
+}
+Values ratesByDifferences(At at) {
+  const Helix h;
+  const auto d = differentiated([&](const S& dt) { return h.p(h.beta(at.t + dt)); }, S("1e-5"));
+  return values(d.first, d.second);
 }
 
-Formula rates() {
-  return formula(
-      "(53)", "β̇ = Σ k a_k t^(k−1), β̈ = Σ k(k−1) a_k t^(k−2)", "rad/s, rad/s²",
-      [](const ReferenceState& at) {
-        const Helix h;
-        return values(h.rate(at.t), h.acceleration(at.t));
-      },
-      [](const ReferenceState& at) {
-        const auto d = betaByDifferences(at.t);
-        return values(d.first, d.second);
-      });
+/// β with its rates at both ends, by differences.
+Values betaAtEnds(At) {
+  const auto start = betaByDifferences(S(0)), end = betaByDifferences(Helix().t_f);
+  return values(start.value, start.first, start.second, end.value, end.first, end.second);
 }
 
-Formula triad() {
-  return formula(
-      "(54), (55)", "Q = [−e_b, e_n, e_t]", "",
-      [](const ReferenceState& at) {
-        const Helix h;
-        const M Q = h.Q(h.beta(at.t));
-        return values(M(Q.transpose() * Q), S(Q.col(0).cross(Q.col(1)).dot(Q.col(2))));
-      },
-      [](const ReferenceState&) { return values(M(M::Identity()), S(1)); });
+Values orthonormality(At at) {
+  const M Q = Helix().Q(Helix().beta(at.t));
+  return values(M(Q.transpose() * Q), S(Q.col(0).cross(Q.col(1)).dot(Q.col(2))));
 }
 
-Formula spin() {
-  return formula(
-      "Appendix ω", "ω = β̇ e_z, ω̇ = β̈ e_z", "rad/s, rad/s²",
-      [](const ReferenceState& at) {
-        const Helix h;
-        return values(V(S(0), S(0), h.rate(at.t)), V(S(0), S(0), h.acceleration(at.t)));
-      },
-      [](const ReferenceState& at) {
-        const Helix h;
-        using Flat = Eigen::Matrix<S, 9, 1>;
-        const auto d = differentiated(
-            [&](const S& dt) {
-              const M Q = h.Q(h.beta(at.t + dt));
-              return Flat(Eigen::Map<const Flat>(Q.data()));
-            },
-            S("1e-5"));
-        const M Q = Eigen::Map<const M>(d.value.data()), Q_dot = Eigen::Map<const M>(d.first.data());
-        const M Q_ddot = Eigen::Map<const M>(d.second.data());
-        return values(vect(Q_dot * Q.transpose()), vect(Q_ddot * Q.transpose() + Q_dot * Q_dot.transpose()));
-      });
-}
-
-/// The sums of (53) begin at k = 0, where the term is 0 · t⁻¹.
-Formula sumsFromZero() {
-  Formula f = formula(
-      "(53) k = 0", "sums from k = 0: the first terms are 0·a_0 t⁻¹, 0·a_0 t⁻²", "rad/s",
-      [](const ReferenceState&) {
-        const Helix h;
-        S total(0);
-        for (int k = 0; k <= 5; ++k) total += k * h.coefficients()[static_cast<std::size_t>(k)] * pow(S(0), k - 1);
-        return values(total);
-      },
-      [](const ReferenceState&) { return values(Helix().rate_0); });
-  f.holds = "sums from k = 1 and k = 2";
-  f.that_holds = [](const ReferenceState&) { return values(Helix().rate(S(0))); };
-  f.note = "Taken to the letter in floating point, β̇ at t = 0 is not a number.";
-  f.misprint = true;
-  return f;
-}
-
-Formula tangent() {
-  Formula f;
-  f.equation = "(54) e_i";
-  f.printed = "e_i = m/(a² + b²)^½";
-  f.holds = "e_t = m/(a² + b²)^½";
-  f.note = "The subscript; e_t is used beside it and in (55).";
-  f.misprint = true;
-  return f;
+/// β̇ at t = 0 if the sum of (53) begins at k = 0, where the term is 0 · t⁻¹.
+Values rateFromZero(At) {
+  S total(0);
+  for (int k = 0; k <= 5; ++k) total += k * Helix().coefficients()[static_cast<std::size_t>(k)] * pow(S(0), k - 1);
+  return values(total);
 }
 
 }  // namespace
 
 std::vector<Formula> appendixFormulas() {
-  return {helixPoint(), quintic(), rates(), triad(), spin(), sumsFromZero(), tangent()};
+  return {{"(49), (52)", "m/s, m/s²", {"p; ṗ = m β̇, p̈ = m β̈ + n β̇²", ratesBy52}, {}, ratesByDifferences},
+          {"(50), (51)",
+           "rad, rad/s, rad/s²",
+           {"β = Σ a_k t^k with a_0 … a_5", betaAtEnds},
+           {},
+           [](At) {
+             const Helix h;
+             return values(h.beta_0, h.rate_0, h.acceleration_0, h.beta_f, h.rate_f, h.acceleration_f);
+           },
+           "Angle, rate and acceleration at both ends, none of them zero."},
+          {"(53)",
+           "rad/s, rad/s²",
+           {"β̇ = Σ k a_k t^(k−1), β̈ = Σ k(k−1) a_k t^(k−2)",
+            [](At at) { return values(Helix().rate(at.t), Helix().acceleration(at.t)); }},
+           {},
+           [](At at) {
+             const auto d = betaByDifferences(at.t);
+             return values(d.first, d.second);
+           }},
+          {"(54), (55)",
+           "",
+           {"Q = [−e_b, e_n, e_t]", orthonormality},
+           {},
+           [](At) { return values(M(M::Identity()), S(1)); }},
+          {"Appendix ω",
+           "rad/s, rad/s²",
+           {"ω = β̇ e_z, ω̇ = β̈ e_z",
+            [](At at) { return values(V(S(0), S(0), Helix().rate(at.t)), V(S(0), S(0), Helix().acceleration(at.t))); }},
+           {},
+           spin},
+          {"(53) k = 0",
+           "rad/s",
+           {"sums from k = 0: the first terms are 0·a_0 t⁻¹, 0·a_0 t⁻²", rateFromZero},
+           {"sums from k = 1 and k = 2", [](At) { return values(Helix().rate(S(0))); }},
+           [](At) { return values(Helix().rate_0); },
+           "Taken to the letter in floating point, β̇ at t = 0 is not a number.",
+           {},
+           false,
+           true},
+          misprint("(54) e_i", "e_i = m/(a² + b²)^½", "e_t = m/(a² + b²)^½",
+                   "The subscript; e_t is used beside it and in (55).")};
 }
 
 }  // namespace ursula::audit

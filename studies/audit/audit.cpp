@@ -64,25 +64,25 @@ void measure(const Formula& formula, const std::vector<ReferenceState>& states, 
     const Values truth = formula.truth(reference);
     row.size = std::max(row.size, mismatch(truth, Values(truth.size(), S(0))));
     row.residual_printed =
-        largerOf(row.residual_printed, formula.as_printed ? mismatch(formula.as_printed(reference), truth) : nan);
+        largerOf(row.residual_printed, formula.printed.side ? mismatch(formula.printed.side(reference), truth) : nan);
     row.residual_holds = largerOf(
-        row.residual_holds, formula.that_holds ? mismatch(formula.that_holds(reference), truth) : row.residual_printed);
+        row.residual_holds, formula.holds.side ? mismatch(formula.holds.side(reference), truth) : row.residual_printed);
   }
 }
 
 AuditRow rowOf(const Formula& formula, const Scenario& scenario, const std::vector<ReferenceState>& states) {
   AuditRow row;
   row.kind = formula.misprint ? AuditRow::Kind::misprint
-                              : (formula.holds.empty() ? AuditRow::Kind::holds : AuditRow::Kind::fails);
+                              : (formula.holds.text.empty() ? AuditRow::Kind::holds : AuditRow::Kind::fails);
   row.equation = formula.equation;
-  row.printed = formula.printed;
-  row.holds = formula.holds;
+  row.printed = formula.printed.text;
+  row.holds = formula.holds.text;
   row.unit = formula.unit;
   row.note = formula.note;
   measure(formula, states, row);
-  if (formula.formula_errors.empty()) return row;
+  if (formula.errors.empty()) return row;
   WithFormulaErrors formula_errors;
-  for (FormulaError formula_error : formula.formula_errors) formula_errors.set(formula_error);
+  for (FormulaError formula_error : formula.errors) formula_errors.set(formula_error);
   row.effect =
       effectOf(scenario, torquesWith(scenario, formula_errors, formula.through_36), torque_samples, replay_tolerance);
   return row;
@@ -94,7 +94,7 @@ std::vector<AuditRow> allTogether(const Scenario& scenario, const std::vector<Fo
   for (const bool with_5 : {true, false}) {
     WithFormulaErrors formula_errors;
     for (const Formula& formula : formulas)
-      for (FormulaError formula_error : formula.formula_errors)
+      for (FormulaError formula_error : formula.errors)
         if (!formula.through_36 && (with_5 || formula_error != FormulaError::eq5)) formula_errors.set(formula_error);
     AuditRow row;
     row.kind = AuditRow::Kind::fails;

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "nocsolver/legs/reading.h"
@@ -15,6 +16,7 @@ namespace ursula::audit {
 using Values = std::vector<S>;
 
 inline void append(Values& to, const S& value) { to.push_back(value); }
+inline void append(Values& to, const Values& more) { to.insert(to.end(), more.begin(), more.end()); }
 template <class Derived>
 void append(Values& to, const Eigen::MatrixBase<Derived>& matrix) {
   const typename Derived::PlainObject plain = matrix;
@@ -27,40 +29,53 @@ Values values(const Parts&... parts) {
   return all;
 }
 
-using Side = std::function<Values(const ReferenceState&)>;
-using LegSide = std::function<Values(const ReferenceState&, const ReferenceLeg&)>;
+using At = const ReferenceState&;
+using Of = const ReferenceLeg&;
+using Side = std::function<Values(At)>;
 
-/// One side of an equation, collected over all legs.
-inline Side overLegs(LegSide side) {
-  return [side = std::move(side)](const ReferenceState& reference) {
+/// One side of an equation, collected over all legs. `side(leg)` or `side(at, leg)` is a number, a vector or a matrix.
+template <class F>
+Side legs(F side) {
+  return [side](At at) {
     Values all;
-    for (const ReferenceLeg& leg : reference.legs) {
-      const Values one = side(reference, leg);
-      all.insert(all.end(), one.begin(), one.end());
-    }
+    for (Of leg : at.legs)
+      if constexpr (std::is_invocable_v<F, Of>)
+        append(all, side(leg));
+      else
+        append(all, side(at, leg));
     return all;
   };
 }
 
-struct Formula {
-  std::string equation;
-  std::string printed;  ///< as printed in our source, in plain text without the leg's index
-  std::string holds;    ///< empty if the printed one is correct
-  std::string unit;
-  Side as_printed;  ///< evaluated with exact input, so that only the formula is under audit
-  Side that_holds;  ///< empty if the printed one is correct
-  Side truth;       ///< the expected values
-  std::string note;
-  std::vector<FormulaError> formula_errors;  ///< the same error in the solver, to find its effect on the torques
-  bool through_36 = false;                   ///< whether (37) does not use it, so that its effect is found by (36)
-  bool misprint = false;  ///< dimensions or types do not match, or a symbol plainly belongs elsewhere
+/// A formula's text, in plain text without the leg's index, and its value with exact input, so that only the formula is
+/// under audit.
+struct Reading {
+  std::string text;
+  Side side;
 };
 
+struct Formula {
+  std::string equation;
+  std::string unit;
+  Reading printed;  ///< as printed in our source
+  Reading holds;    ///< empty if the printed one is correct
+  Side truth;       ///< the expected values
+  std::string note = "";
+  std::vector<FormulaError> errors = {};  ///< the same error in the solver, to find its effect on the torques
+  bool through_36 = false;                ///< whether (37) does not use it, so that its effect is found by (36)
+  bool misprint = false;                  ///< dimensions or types do not match, or a symbol plainly belongs elsewhere
+};
+
+/// A misprint that has no value.
+inline Formula misprint(const char* equation, const char* printed, const char* holds, const char* note) {
+  return {equation, "", {printed, {}}, {holds, {}}, {}, note, {}, false, true};
+}
+
 /// Velocity and acceleration of B as in (6), (8).
-inline V velocityOfB(const ReferenceState& at, const ReferenceLeg& leg) {
+inline V velocityOfB(At at, Of leg) {
   return at.platform.p_dot + crossMatrix(at.platform.omega) * at.platform.Q * leg.b;
 }
-inline V accelerationOfB(const ReferenceState& at, const ReferenceLeg& leg) {
+inline V accelerationOfB(At at, Of leg) {
   const M Omega = crossMatrix(at.platform.omega);
   return at.platform.p_ddot + (crossMatrix(at.platform.omega_dot) + Omega * Omega) * at.platform.Q * leg.b;
 }
@@ -81,8 +96,6 @@ inline Vector6<S> stack(const V& angular, const V& linear) {
 }
 
 /// The signed distance of B from the axis of φ, m.
-inline S distanceFromAxis(const ReferenceLeg& leg) {
-  return leg.s * sin(leg.at.psi() + leg.at.theta()) - leg.l * sin(leg.at.psi());
-}
+inline S distanceFromAxis(Of leg) { return leg.s * sin(leg.at.psi() + leg.at.theta()) - leg.l * sin(leg.at.psi()); }
 
 }  // namespace ursula::audit

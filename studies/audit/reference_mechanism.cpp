@@ -114,7 +114,6 @@ ReferenceMechanism::ReferenceMechanism(const Manipulator& manipulator, const Tra
 LegPose ReferenceMechanism::legPose(int i, const V& p, const M& Q) const {
   const Leg& leg = manipulator_.leg(i);
   const V u = unitAxis(leg), Qb = Q * leg.platform_point.cast<S>();
-  const V rho = Q * manipulator_.platform().center_of_mass.cast<S>();
   const S l(leg.proximal.length), s(leg.distal.length);
   const V AB = p + Qb - leg.base_point.cast<S>();
   const S q2 = AB.squaredNorm(), q = sqrt(q2);
@@ -146,7 +145,6 @@ LegPose ReferenceMechanism::legPose(int i, const V& p, const M& Q) const {
   Eigen::Map<M>(pose.v.data() + 32) = linkFrame(x, AR / l);
   Eigen::Map<M>(pose.v.data() + 41) = linkFrame(x, RB / s);
   pose.v.segment<6>(50) << Qb.cross(x), x;
-  pose.v.segment<6>(56) << (Qb - rho).cross(x), x;
   return pose;
 }
 
@@ -201,7 +199,6 @@ ReferenceLeg ReferenceMechanism::legAt(int i, const S& t, const ReferencePlatfor
   out.I_distal = leg.distal.inertia.cast<S>();
   out.u = unitAxis(leg);
   out.Q_hat = fixedFrame(out.u);
-  out.p = platform.p;
   out.at.v = d.value;
   out.dot.v = d.first;
   out.ddot.v = d.second;

@@ -24,24 +24,23 @@ V vect(const M& matrix);
 /// Position-level quantities of one leg in one vector, which can be differenced at once.
 class LegPose {
  public:
-  using Vector = Eigen::Matrix<S, 62, 1>;
+  using Vector = Eigen::Matrix<S, 56, 1>;
 
   const S& phi() const { return v[0]; }
   const S& psi() const { return v[1]; }
   const S& theta() const { return v[2]; }
-  const S& q() const { return v[3]; }                       ///< ‖AB‖
-  const S& a_ii() const { return v[4]; }                    ///< the negative distance of B from the actuated axis
-  V AB() const { return v.segment<3>(5); }                  ///< in B
-  V AB_i() const { return v.segment<3>(8); }                ///< in F
-  V c() const { return v.segment<3>(11); }                  ///< mass centre of the proximal link
-  V d() const { return v.segment<3>(14); }                  ///< mass centre of the distal link
-  V e_i() const { return v.segment<3>(17); }                ///< unit vector along AR, in F
-  V s_i() const { return v.segment<3>(20); }                ///< unit vector along RB, in F
-  M F() const { return matrix(23); }                        ///< axes of Fᵢ in B
-  M G() const { return matrix(32); }                        ///< frame of the proximal link
-  M H() const { return matrix(41); }                        ///< frame of the distal link
-  Vector6<S> rowOfB() const { return v.segment<6>(50); }    ///< [Qb × x; x]
-  Vector6<S> rowOfB_C() const { return v.segment<6>(56); }  ///< the same for the platform's mass centre
+  const S& q() const { return v[3]; }                     ///< ‖AB‖
+  const S& a_ii() const { return v[4]; }                  ///< the negative distance of B from the actuated axis
+  V AB() const { return v.segment<3>(5); }                ///< in B
+  V AB_i() const { return v.segment<3>(8); }              ///< in F
+  V c() const { return v.segment<3>(11); }                ///< mass centre of the proximal link
+  V d() const { return v.segment<3>(14); }                ///< mass centre of the distal link
+  V e_i() const { return v.segment<3>(17); }              ///< unit vector along AR, in F
+  V s_i() const { return v.segment<3>(20); }              ///< unit vector along RB, in F
+  M F() const { return matrix(23); }                      ///< axes of Fᵢ in B
+  M G() const { return matrix(32); }                      ///< frame of the proximal link
+  M H() const { return matrix(41); }                      ///< frame of the distal link
+  Vector6<S> rowOfB() const { return v.segment<6>(50); }  ///< [Qb × x; x]
   V x() const { return v.segment<3>(23); }
 
   Vector v = Vector::Zero();
@@ -63,8 +62,6 @@ struct ReferenceLeg {
   M Q_i() const;
   M Omega_i() const { return crossMatrix(V(S(0), -dot.phi(), S(0))); }
   M Omega_i_dot() const { return crossMatrix(V(S(0), -ddot.phi(), S(0))); }
-  V Qb() const { return at.AB() + a - p; }
-  V p;  ///< of the platform
   /// h of (11b) as the velocity of B in the axes of F, and its derivative.
   V h() const { return at.F().transpose() * dot.AB(); }
   V h_dot() const { return dot.F().transpose() * dot.AB() + at.F().transpose() * ddot.AB(); }

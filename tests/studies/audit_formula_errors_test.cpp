@@ -15,10 +15,10 @@ namespace {
 Scenario paperHelix() { return readScenario(URSULA_SCENARIOS "/paper-helix.toml"); }
 
 /// The results of the solver with an error, in the order of the formula's values.
-using Reading = std::function<Values(const Noc<S, WithFormulaErrors>&, const Motion<S>&, NocWorkspace<S>&)>;
+using SolverReading = std::function<Values(const Noc<S, WithFormulaErrors>&, const Motion<S>&, NocWorkspace<S>&)>;
 
 template <class F>
-Reading overJoints(F pick) {
+SolverReading overJoints(F pick) {
   return [pick](const Noc<S, WithFormulaErrors>& solver, const Motion<S>& motion, NocWorkspace<S>& work) {
     solver.inverseKinematics(motion, work);
     solver.jacobians(motion, work);
@@ -29,7 +29,7 @@ Reading overJoints(F pick) {
 }
 
 /// Reads three components of a twist or its rate, for proximal or distal links or both.
-Reading overLinks(bool rate, int first, bool proximal, bool distal) {
+SolverReading overLinks(bool rate, int first, bool proximal, bool distal) {
   return [=](const Noc<S, WithFormulaErrors>& solver, const Motion<S>& motion, NocWorkspace<S>& work) {
     BodyMotions<S> bodies;
     solver.inverseKinematics(motion, work);
@@ -45,7 +45,7 @@ Reading overLinks(bool rate, int first, bool proximal, bool distal) {
   };
 }
 
-std::vector<std::pair<std::string, Reading>> readings() {
+std::vector<std::pair<std::string, SolverReading>> readings() {
   const auto rates = [](int which) {
     return overJoints([which](const auto&, const NocWorkspace<S>& work, int i) {
       return work.legs[static_cast<std::size_t>(i)].rate(which);
@@ -102,9 +102,9 @@ TEST(AuditFormulas, asPrintedAreTheSolversFormulaErrors) {
     const auto found = std::find_if(all.begin(), all.end(), [&](const Formula& f) { return f.equation == equation; });
     ASSERT_NE(found, all.end()) << equation;
     WithFormulaErrors formula_errors;
-    for (FormulaError formula_error : found->formula_errors) formula_errors.set(formula_error);
+    for (FormulaError formula_error : found->errors) formula_errors.set(formula_error);
     NocWorkspace<S> work;
-    const Values printed = found->as_printed(reference);
+    const Values printed = found->printed.side(reference);
     EXPECT_LE(
         largestDifference(
             reading(Noc<S, WithFormulaErrors>(*scenario.manipulator, formula_errors), reference.motion, work), printed),
