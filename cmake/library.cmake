@@ -39,7 +39,9 @@ set(parts ursula_base ursula_model ursula_nocsolver ursula_parallel ursula_simbo
   ursula_mistakes ursula_causes ursula_report ursula_validation ursula_outside ursula_provenance
   ursula_check_scenario ursula_compare ursula_identify ursula_map ursula_simulate ursula_stream ursula_exchange)
 list(TRANSFORM parts REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE objects)
-add_library(ursula_library SHARED ${PROJECT_SOURCE_DIR}/cmake/library.cpp ${objects})
+set(as_users_do ${PROJECT_BINARY_DIR}/generated/library.cpp)
+file(CONFIGURE OUTPUT ${as_users_do} CONTENT "#include <ursula/ursula.h>\n")
+add_library(ursula_library SHARED ${as_users_do} ${objects})
 add_library(ursula::ursula ALIAS ursula_library)
 add_dependencies(ursula_library ursula_headers)
 set(symbols ${PROJECT_SOURCE_DIR}/cmake/ursula.map)

@@ -13,7 +13,7 @@ set(_ursula_provenance_source ${PROJECT_BINARY_DIR}/generated/provenance.cpp)
 add_custom_command(OUTPUT ${_ursula_provenance_source}
   COMMAND ${CMAKE_COMMAND}
     -D SOURCE_DIR=${PROJECT_SOURCE_DIR}
-    -D TEMPLATE=${PROJECT_SOURCE_DIR}/cmake/provenance.cpp.in
+    -D TEMPLATE=${PROJECT_SOURCE_DIR}/base/provenance.cpp.in
     -D OUTPUT=${_ursula_provenance_source}
     -D DEPFILE=${_ursula_provenance_source}.d
     -D GIT=$<IF:$<BOOL:${GIT_EXECUTABLE}>,${GIT_EXECUTABLE},>
@@ -23,7 +23,7 @@ add_custom_command(OUTPUT ${_ursula_provenance_source}
     -D BUILD_TYPE=${CMAKE_BUILD_TYPE}
     -D SIMBODY=$<IF:$<BOOL:${Simbody_VERSION}>,${Simbody_VERSION},unknown>
     -P ${PROJECT_SOURCE_DIR}/cmake/write_provenance.cmake
-  DEPENDS ${PROJECT_SOURCE_DIR}/cmake/provenance.cpp.in ${PROJECT_SOURCE_DIR}/cmake/write_provenance.cmake
+  DEPENDS ${PROJECT_SOURCE_DIR}/base/provenance.cpp.in ${PROJECT_SOURCE_DIR}/cmake/write_provenance.cmake
   DEPFILE ${_ursula_provenance_source}.d
   COMMENT "Asking for the commit" VERBATIM)
 

@@ -10,23 +10,15 @@ namespace ursula {
 namespace {
 
 ScenarioTable document() {
-  return {
-      "",
-      "(the top of the file)",
-      "A machine, its motion and how that is judged. SI units throughout; B is the base's frame, M the platform's.",
-      {{"name", KeyType::string, "", required_key, "results go to results/NAME; a name that a folder can have"},
-       {"manipulator", KeyType::table, "", required_key, "the machine", {}, {}, "manipulator"},
-       {"trajectory", KeyType::table, "", required_key, "the commanded motion of the platform", {}, {}, "trajectory"},
-       {"load", KeyType::table, "", no_default, "what acts on the platform from outside", {}, {}, "load"},
-       {"simulation",
-        KeyType::table,
-        "",
-        no_default,
-        "how finely it is looked at and integrated",
-        {},
-        {},
-        "simulation"},
-       {"acceptance", KeyType::table, "", no_default, "limits of your own", {}, {}, "acceptance"}}};
+  return {"",
+          "(the top of the file)",
+          "A machine, its motion and how that is judged. SI units throughout; B is the base's frame, M the platform's.",
+          {{"name", KeyType::string, "", required_key, "results go to results/NAME; a name that a folder can have"},
+           tableKey("manipulator", required_key, "the machine", "manipulator"),
+           tableKey("trajectory", required_key, "the commanded motion of the platform", "trajectory"),
+           tableKey("load", no_default, "what acts on the platform from outside", "load"),
+           tableKey("simulation", no_default, "how finely it is looked at and integrated", "simulation"),
+           tableKey("acceptance", no_default, "limits of your own", "acceptance")}};
 }
 
 ScenarioKey force(const char* meaning) { return {"force", KeyType::vector, "N", "[0.0, 0.0, 0.0]", meaning}; }
@@ -44,10 +36,10 @@ ScenarioTable load() {
       {force("constant"),
        moment(),
        {"point", KeyType::vector, "m", "[0.0, 0.0, 0.0]", "where the force acts, in M; zero is P"},
-       {"frame", KeyType::choice, "", "\"base\"", "in which force and moment are given", {}, {"base", "platform"}},
+       choiceKey("frame", "\"base\"", "in which force and moment are given", {"base", "platform"}),
        {"file", KeyType::string, "", no_default,
         "a CSV with `t_s`, `f_{x,y,z}_N`, `m_{x,y,z}_Nm`; a relative path is taken from the scenario's folder"},
-       {"table", KeyType::tables, "", no_default, "rows over time, at least two", {}, {}, "load.table"}}};
+       tableKey("table", no_default, "rows over time, at least two", "load.table", KeyType::tables)}};
 }
 
 ScenarioTable loadTable() {
@@ -67,13 +59,8 @@ ScenarioTable simulation() {
             "301",
             "instants judged and written, from 0 to t_f",
             {"an integer from 2 to 1000000", 2, 1e6}},
-           {"integrator",
-            KeyType::choice,
-            "",
-            "\"rkf78\"",
-            "of the replays: rkf78 is Boost.Odeint's, rk_merson Simbody's",
-            {},
-            {"rkf78", "rk_merson"}},
+           choiceKey("integrator", "\"rkf78\"", "of the replays: rkf78 is Boost.Odeint's, rk_merson Simbody's",
+                     {"rkf78", "rk_merson"}),
            {"tolerance",
             KeyType::number,
             "",

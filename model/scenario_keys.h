@@ -46,6 +46,18 @@ struct ScenarioKey {
   bool isRequired() const { return fallback[0] == '!'; }
 };
 
+/// The row of a table, or with KeyType::tables of an array of them; `of` names the ScenarioTable of their content.
+inline ScenarioKey tableKey(const char* name, const char* fallback, const char* meaning, const char* of,
+                            KeyType type = KeyType::table) {
+  return {name, type, "", fallback, meaning, {}, {}, of};
+}
+
+/// The row of a key that takes one of these words.
+inline ScenarioKey choiceKey(const char* name, const char* fallback, const char* meaning,
+                             const std::vector<std::string>& choices) {
+  return {name, KeyType::choice, "", fallback, meaning, {}, choices};
+}
+
 /// The keys of one table of a scenario, in the order of errors and docs.
 struct ScenarioTable {
   const char* name;     ///< name for the reader: `manipulator.leg`

@@ -17,23 +17,9 @@ ScenarioTable manipulator() {
           "[manipulator]",
           "",
           {{"gravity", KeyType::vector, "m/s²", "[0.0, 0.0, -9.81]", "g, in B"},
-           {"platform",
-            KeyType::table,
-            "",
-            required_key,
-            "the platform with all that it carries",
-            {},
-            {},
-            "manipulator.platform"},
-           {"leg_defaults",
-            KeyType::table,
-            "",
-            no_default,
-            "what all legs share; takes every key of a leg",
-            {},
-            {},
-            "manipulator.leg"},
-           {"leg", KeyType::tables, "", required_key, "three to six, in leg order", {}, {}, "manipulator.leg"}}};
+           tableKey("platform", required_key, "the platform with all that it carries", "manipulator.platform"),
+           tableKey("leg_defaults", no_default, "what all legs share; takes every key of a leg", "manipulator.leg"),
+           tableKey("leg", required_key, "three to six, in leg order", "manipulator.leg", KeyType::tables)}};
 }
 
 ScenarioTable platform() {
@@ -53,15 +39,11 @@ ScenarioTable leg() {
       "One of three to six; also `[manipulator.leg_defaults]`, whose keys a leg may override one by one. Required keys "
       "must "
       "stand in one of the two.",
-      {{"kind",
-        KeyType::choice,
-        "",
-        "\"URS\"",
-        "the joints from base to platform, where each leg ends in a spherical one: URS (the paper's), UPS "
-        "(telescopic), "
-        "RUS (crank and rod), PUS (carriage and rod)",
-        {},
-        kindNames()},
+      {choiceKey("kind", "\"URS\"",
+                 "the joints from base to platform, where each leg ends in a spherical one: URS (the paper's), UPS "
+                 "(telescopic), "
+                 "RUS (crank and rod), PUS (carriage and rod)",
+                 kindNames()),
        {"actuated",
         KeyType::choices,
         "",
@@ -74,62 +56,22 @@ ScenarioTable leg() {
        {"base_axis", KeyType::vector, "", required_key,
         "uᵢ: the axis of the first joint, in B; normalised on reading. φ is positive about −uᵢ, d of PUS along it"},
        {"platform_point", KeyType::vector, "m", required_key, "bᵢ: the platform joint B, in M"},
-       {"proximal",
-        KeyType::table,
-        "",
-        required_key,
-        "the link from A to the knee R; the cylinder of UPS, the carriage of PUS",
-        {},
-        {},
-        "manipulator.leg.link"},
-       {"distal",
-        KeyType::table,
-        "",
-        required_key,
-        "the link from the knee R to B; the rod",
-        {},
-        {},
-        "manipulator.leg.link"},
-       {"knee",
-        KeyType::choice,
-        "",
-        "\"positive\"",
-        "which of the two bends of the knee: sign of sin θ (URS), sin ψ (RUS), cos θ (PUS)",
-        {},
-        {"positive", "negative"}},
-       {"friction",
-        KeyType::table,
-        "",
-        no_default,
-        "viscous friction in the joints",
-        {},
-        {},
-        "manipulator.leg.friction"},
-       {"coulomb",
-        KeyType::table,
-        "",
-        no_default,
-        "Coulomb friction in the joints, smoothed",
-        {},
-        {},
-        "manipulator.leg.coulomb"},
-       {"rotor_inertia",
-        KeyType::table,
-        "",
-        no_default,
-        "of what the motors turn",
-        {},
-        {},
-        "manipulator.leg.rotor_inertia"},
-       {"spin",
-        KeyType::choice,
-        "",
-        "\"held\"",
-        "whether a universal joint holds the rod (of UPS cylinder and rod) about its own line, or a ball lets it spin, "
-        "which then it does not: S–P–S for UPS, R–S–S for RUS, P–S–S for PUS. `free` needs equal moments across the "
-        "line, no products of inertia and a mass centre on it",
-        {},
-        {"held", "free"}}}};
+       tableKey("proximal", required_key, "the link from A to the knee R; the cylinder of UPS, the carriage of PUS",
+                "manipulator.leg.link"),
+       tableKey("distal", required_key, "the link from the knee R to B; the rod", "manipulator.leg.link"),
+       choiceKey("knee", "\"positive\"",
+                 "which of the two bends of the knee: sign of sin θ (URS), sin ψ (RUS), cos θ (PUS)",
+                 {"positive", "negative"}),
+       tableKey("friction", no_default, "viscous friction in the joints", "manipulator.leg.friction"),
+       tableKey("coulomb", no_default, "Coulomb friction in the joints, smoothed", "manipulator.leg.coulomb"),
+       tableKey("rotor_inertia", no_default, "of what the motors turn", "manipulator.leg.rotor_inertia"),
+       choiceKey(
+           "spin", "\"held\"",
+           "whether a universal joint holds the rod (of UPS cylinder and rod) about its own line, or a ball lets it "
+           "spin, "
+           "which then it does not: S–P–S for UPS, R–S–S for RUS, P–S–S for PUS. `free` needs equal moments across the "
+           "line, no products of inertia and a mass centre on it",
+           {"held", "free"})}};
 }
 
 ScenarioTable link() {

@@ -249,6 +249,6 @@ KEY = Toy(
         "model/scenario.h": [("  Integrator integrator = Integrator::rkf78;", "  double toy = 1;  ///< s, above 0\n")],
         "model/scenario.cpp": [("  if (const auto integrator = table.readChoice",
                                 '  table.read("toy", settings.toy);\n  table.requireBound(keys.key("toy"), settings.toy);\n')],
-        "model/scenario_keys.cpp": [('           {"integrator",', '           {"toy", KeyType::number, "s", "1", "a toy", above_zero},\n')]})
+        "model/scenario_keys.cpp": [('           choiceKey("integrator",', '           {"toy", KeyType::number, "s", "1", "a toy", above_zero},\n')]})
 
 TOYS = {"check": CHECK, "trajectory": TRAJECTORY, "engine": ENGINE, "kind of leg": LEG_KIND, "verb": VERB, "key": KEY}

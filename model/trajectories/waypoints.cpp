@@ -17,18 +17,18 @@ std::unique_ptr<Trajectory> makeWaypoints(const std::vector<TimedPose>& points) 
 }
 
 std::vector<ScenarioTable> waypointsKeys() {
-  return {{"trajectory.waypoints",
-           "[trajectory], kind = \"waypoints\"",
-           "Through poses, at rest at both ends, four times continuously differentiable.",
-           {kindKey(),
-            {"points", KeyType::tables, "", required_key, "at least two", {}, {}, "trajectory.waypoints.points"}}},
-          {"trajectory.waypoints.points",
-           "points = [{ … }, …]",
-           "The first at time 0; neighbours less than 170° apart.",
-           {{"time", KeyType::number, "s", required_key, "increasing"},
-            positionKey(),
-            orientationKeys()[0],
-            orientationKeys()[1]}}};
+  return {
+      {"trajectory.waypoints",
+       "[trajectory], kind = \"waypoints\"",
+       "Through poses, at rest at both ends, four times continuously differentiable.",
+       {kindKey(), tableKey("points", required_key, "at least two", "trajectory.waypoints.points", KeyType::tables)}},
+      {"trajectory.waypoints.points",
+       "points = [{ … }, …]",
+       "The first at time 0; neighbours less than 170° apart.",
+       {{"time", KeyType::number, "s", required_key, "increasing"},
+        positionKey(),
+        orientationKeys()[0],
+        orientationKeys()[1]}}};
 }
 
 std::shared_ptr<const Trajectory> readWaypoints(const TomlSection& table) {
