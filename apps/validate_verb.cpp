@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -42,22 +41,23 @@ struct ValidateOptions {
 };
 
 /// "3 min", "5 h"
-std::string inWords(double seconds) {
+std::string roughTime(double seconds) {
   constexpr double minute = 60, hour = 3600, day = 86400;
   if (seconds < 2 * hour) return fmt::format("{:.0f} min", seconds / minute);
   return seconds < 2 * day ? fmt::format("{:.0f} h", seconds / hour) : fmt::format("{:.3g} days", seconds / day);
 }
 
 /// Announces long work before it starts, and what ends it.
-void sayWork(const Scenario& scenario, double limit, bool asks_process) {
+void sayWork(const Scenario& scenario, double time_limit, bool asks_process) {
   constexpr double worth_a_word = 60;  // s: shorter work is not announced
-  if (asks_process && !(limit > 0))
+  if (asks_process && !(time_limit > 0))
     say("{}: asks the solver 20,000 times or more; --time-limit 20 judges its samples alone, and names a cause\n",
         scenario.name);
   const double estimate = estimatedSeconds(scenario);
   if (!(estimate > worth_a_word)) return;
-  const std::string ends = limit > 0 ? fmt::format("ends after {:g} s", limit) : "--time-limit SECONDS ends it sooner";
-  say("{}: about {} of work for {} samples of a motion of {:g} s; {}\n", scenario.name, inWords(estimate),
+  const std::string ends =
+      time_limit > 0 ? fmt::format("ends after {:g} s", time_limit) : "--time-limit SECONDS ends it sooner";
+  say("{}: about {} of work for {} samples of a motion of {:g} s; {}\n", scenario.name, roughTime(estimate),
       scenario.simulation.samples, scenario.trajectory->duration(), ends);
 }
 
@@ -120,11 +120,9 @@ int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions
   ValidationOptions validation;
   validation.time_limit = options.time_limit > 0 ? options.time_limit : suite_time_limit;
   suite.judge = [validation, &options](const Scenario& scenario) {
-    if (!options.quiet) sayWork(scenario, validation.time_limit, false);
-    ValidationResult result = options.solver.command.empty()
-                                  ? validate(scenario, validation)
-                                  : validateExternalSolver(scenario, options.solver, validation);
-    return result;
+    if (!options.quiet) sayWork(scenario, validation.time_limit, !options.solver.command.empty());
+    return options.solver.command.empty() ? validate(scenario, validation)
+                                          : validateExternalSolver(scenario, options.solver, validation);
   };
   std::optional<SuiteProgress> progress;
   if (!options.quiet) progress.emplace(members.size());
@@ -138,7 +136,7 @@ int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions
 }
 
 /// Checks that options fit together, and that options for one motion get one scenario.
-void requireSense(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
+void requireConsistent(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
   if (members.size() > 1 && !options.torques.empty())
     throw UsageError(
         fmt::format("--torques: got {} scenarios, expected one, because a file is of one motion", members.size()));
@@ -152,7 +150,7 @@ void requireSense(const ValidateOptions& options, const std::vector<SuiteMember>
     throw UsageError("--solver: got - as the scenario, expected a file, because the command gets its path");
 }
 
-/// A folder is a suite even if it holds one scenario, because scripts then find the same files.
+/// A folder is always a suite, so that scripts find the same files.
 bool isSuite(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
   const auto is_folder = [](const std::string& each) {
     std::error_code ignored;
@@ -182,7 +180,8 @@ std::vector<std::filesystem::path> inputsOf(const ValidateOptions& options, cons
   return out;
 }
 
-/// Refuses wrong usage, and a suite without a valid member, before anything is computed or written.
+/// Reads, checks and judges the scenarios. Wrong usage, and a suite without a valid member, are refused before anything
+/// is computed or written.
 int validateAll(const ValidateOptions& options) {
   if (std::count(options.scenarios.begin(), options.scenarios.end(), "-") > 1)
     throw UsageError("standard input can be read once, expected one -");
@@ -193,7 +192,7 @@ int validateAll(const ValidateOptions& options) {
   const bool none_good =
       std::none_of(members.begin(), members.end(), [](const auto& each) { return each.error.empty(); });
   if (options.strict || none_good) members = allOrNothing(std::move(members));
-  requireSense(options, members);
+  requireConsistent(options, members);
   for (SuiteMember& member : members) {
     if (!member.scenario) continue;
     std::optional<EffortTolerance>& tolerance = member.scenario->tolerance;
@@ -228,8 +227,7 @@ void addOtherSolvers(CLI::App& verb, ValidateOptions& options) {
   CLI::Option* solver = verb.add_option(
       "--solver", options.solver.command,
       "Judges this command instead. sh starts it once for each scenario. It reads the motion line by line on its "
-      "standard "
-      "input\n"
+      "standard input\n"
       "(t,p,q,v,w,a,alpha: 20 values, separated by commas) and answers each line with six torques or forces");
   solver->excludes(torques)->check(
       [](const std::string& command) { return command.empty() ? std::string("expected a command") : std::string(); });
@@ -254,10 +252,10 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
                    "Scenarios judged at a time; for one scenario, threads. Results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  verb->add_option("--time-limit", options->time_limit,
-                   "Wall time for each scenario, s: checks that it cuts short are inconclusive (exit 3); the report is "
-                   "written.\n"
-                   "Default: no limit for one scenario, 600 for each of several")
+  verb->add_option(
+          "--time-limit", options->time_limit,
+          "Wall time for each scenario, s. Unfinished checks are inconclusive (exit 3); the report is written.\n"
+          "Default: no limit for one scenario, 600 for each of several")
       ->check(finitePositive());
   verb->add_flag("--strict", options->strict,
                  "Computes and writes nothing unless every scenario can be read and has a valid motion");
@@ -272,10 +270,10 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
       ->check(finitePositive());
   verb->add_flag("--any-tolerance", options->any_tolerance, "Accepts even a tolerance at which zeros would pass");
   verb->footer(
-      "Several scenarios: each gets a folder under DIR, and all share index.html and junit.xml; so does a folder's\n"
-      "only one. A scenario that cannot be read, is out of reach or is singular counts as an error, and the others\n"
-      "are judged. Nothing is written\n"
-      "(exit 2) if all are in error, if two share a name, or if any is in error with --strict.\n"
+      "Several scenarios: each gets a folder under DIR, and all share index.html and junit.xml. A folder with one\n"
+      "scenario is treated alike. A scenario that cannot be read, is out of reach or is singular counts as an error,\n"
+      "and the others are judged. Nothing is written (exit 2) if all are in error, if two share a name, or if any is\n"
+      "in error with --strict.\n"
       "Exit code: 1 if any failed or was in error, else 3 if any was inconclusive, else 0.");
   verb->callback([options, &run] { run = [options] { return validateAll(*options); }; });
 }

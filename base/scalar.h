@@ -42,4 +42,7 @@ inline double angleOpposite(double c, double a, double b) {
   return 2 * std::atan2(std::sqrt(std::max(top, 0.0)), std::sqrt(std::max(bottom, 0.0)));
 }
 
+/// The larger of two; NaN wins.
+inline double larger(double a, double b) { return std::isnan(a) || a > b ? a : b; }
+
 }  // namespace ursula

@@ -24,8 +24,8 @@ enum class CheckGroup { motors, fast, replay, kinematics, numerics, input };
 
 /// What a check compares the subject with.
 enum class StandsOn {
-  engine,  ///< Simbody, or the further engine that has the check
-  itself,  ///< no engine: the solver's own formulas, the pose in 50 digits, a second parser
+  engine,     ///< Simbody, or the further engine that has the check
+  no_engine,  ///< another formulation of this program, the pose in 50 digits, or a property of the solver itself
 };
 
 /// Where a check's limit comes from if the user gives none.
@@ -44,8 +44,7 @@ struct CheckRow {
   CheckGroup group;
   StandsOn stands_on;
   const char* title;
-  const char* meaning;     ///< what it shows, in one line
-  const char* proves;      ///< the same in detail
+  const char* proves;
   const char* cannot_see;  ///< what it cannot see; empty if there is nothing to say
   LimitFrom from;
   const char* limit;  ///< where it comes from, in words

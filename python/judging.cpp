@@ -1,5 +1,4 @@
 #include "python/judging.h"
-#include "python/bindings.h"
 
 #include <pybind11/stl.h>
 #include <ursula/validate.h>
@@ -44,7 +43,7 @@ std::vector<Vector6d> torquesOf(const py::object& answer, const std::vector<Moti
   return out;
 }
 
-/// Returns the function's name without the functions around it; a lambda has no name.
+/// "solve" of "outer.<locals>.solve"; "your function" for a lambda.
 std::string nameOf(const py::object& solver) {
   static const std::string around = "<locals>.";
   const std::string whole = py::str(py::getattr(solver, "__qualname__", py::type::of(solver).attr("__name__")));

@@ -79,7 +79,7 @@ std::string ursula::python::inPython(const std::string& message) {
 }
 
 std::string ursula::python::byIndex(const std::string& message, const std::string& instants) {
-  static const std::regex line("(?:^[^:]*:(\\d+): error: t_s)|(?:(?:of )?line (\\d+))");
+  static const std::regex line("(?:^.*?:(\\d+): error: t_s)|(?:(?:of )?line (\\d+))");
   return eachReplaced(inPython(message), line, [&instants](const std::smatch& found) {
     const std::string number = found[1].matched ? found[1] : found[2];
     return (found.str().rfind("of ", 0) == 0 ? "of " : "") + instants + "[" + std::to_string(std::stoi(number) - 2) +

@@ -83,7 +83,7 @@ HtmlValue item(const Check& check, const Decades& decades) {
           {"bar", bar(check, decades)},
           {"value", has_value ? quantity(check.value, check.unit) : "no value"},
           {"limit", has_value ? quantity(check.limit, check.unit) : ""},
-          {"means", row == nullptr ? "" : row->meaning},
+          {"means", row == nullptr ? "" : row->proves},
           {"found", check.why},
           {"basis", formulaInPrint(check.basis)},
           {"in_full", inFull(check)}};

@@ -73,7 +73,7 @@ std::string explanations() {
   for (std::size_t k = 0; k < checkGroups().size(); ++k) {
     out += checkGroups()[k] + "\n";
     for (const CheckRow& row : checkCatalogue())
-      if (groupOf(row.name) == k) out += fmt::format("  {}  {}\n", padded(row.name, width), row.meaning);
+      if (groupOf(row.name) == k) out += fmt::format("  {}  {}\n", padded(row.name, width), row.title);
   }
   return out;
 }

@@ -80,7 +80,8 @@ std::string reportHtml(const ValidationResult& result, Place place) {
   const std::vector<Plot> charts = plots(result);
   const std::shared_ptr<const Picture> picture = pictureOf(result);
   std::vector<PageSection> sections = parts(result, picture.get(), charts);
-  for (auto& [id, title, html] : sections) title = inWords(title), html = inWords(html);
+  for (auto& [id, title, html] : sections)
+    if (id != "provenance") title = inWords(title), html = inWords(html);  // which quotes the user's own command
   const std::string motors = motorsTable(result);
   return rendered(report_html, {{"scenario", result.scenario},
                                 {"style", std::string(report_style)},

@@ -45,8 +45,8 @@ std::string numberText(double value) {
   return std::isinf(value) ? "infinite" : fmt::format("{:.3g}", value);
 }
 
-/// Returns a share only if value and limit decided, because the share of a useless limit means nothing.
-std::string shareText(const Check& check) {
+/// The value's share of its limit; empty if they did not decide the check.
+std::string limitShareText(const Check& check) {
   const double share = limitShare(check);
   if (check.verdict == Verdict::inconclusive || check.verdict == Verdict::not_applicable || std::isnan(share))
     return "";
@@ -56,15 +56,15 @@ std::string shareText(const Check& check) {
 }
 
 /// A value that mixes forces and moments has no readable unit, so only the share is shown.
-std::vector<std::string> row(const Check& check) {
+std::vector<std::string> tableRow(const Check& check) {
   const bool mixed = check.unit.find(',') != std::string::npos;
   const bool none = std::isnan(check.value) && std::isnan(check.limit);
   const std::string value = mixed || none ? "" : numberText(check.value);
   const std::string limit = mixed || none || check.reason == Reason::reported ? "" : numberText(check.limit);
-  return {check.name, value, limit, mixed || none ? "" : prettyUnit(check.unit), shareText(check)};
+  return {check.name, value, limit, mixed || none ? "" : prettyUnit(check.unit), limitShareText(check)};
 }
 
-std::string word(const Check& check) {
+std::string verdictWord(const Check& check) {
   return check.reason == Reason::reported ? "not judged" : std::string(name(check.verdict));
 }
 
@@ -87,7 +87,7 @@ std::string groupText(const std::vector<const Check*>& checks, const std::vector
   for (std::size_t k = 0; k < checks.size(); ++k) {
     const Check& check = *checks[k];
     const Paint paint = check.reason == Reason::reported ? Paint::quiet : paintOf(check.verdict);
-    out += "  " + painted(padded(word(check), verdict_width), paint, coloured) + "  " + lines[k] + "\n";
+    out += "  " + painted(padded(verdictWord(check), verdict_width), paint, coloured) + "  " + lines[k] + "\n";
     if (!isOpen(check)) continue;
     const std::string why = whyLine(check, cause);
     const bool said_next = k + 1 < checks.size() && isOpen(*checks[k + 1]) && whyLine(*checks[k + 1], cause) == why;
@@ -102,7 +102,7 @@ std::string checksTable(const ValidationResult& result, bool coloured) {
     if (isShown(check)) groups[groupOf(check.name)].push_back(&check);
   std::vector<std::vector<std::string>> rows = {{"", "value", "limit", "unit", "of limit"}};
   for (const auto& group : groups)
-    for (const Check* check : group) rows.push_back(row(*check));
+    for (const Check* check : group) rows.push_back(tableRow(*check));
   const std::vector<std::string> lines =
       alignedRows(rows, {Align::left, Align::right, Align::right, Align::left, Align::right});
   std::string out = indented(verdict_width + 4, painted(lines.front(), Paint::quiet, coloured));
@@ -241,7 +241,7 @@ Paint paintOf(const SuiteEntry& entry) {
   return entry.verdict == Verdict::pass ? Paint::good : Paint::open;
 }
 
-std::string why(const SuiteEntry& entry) {
+std::string entryReason(const SuiteEntry& entry) {
   const Check* worst = worstCheck(entry.checks);
   if (!entry.error.empty()) return entry.error;
   return worst == nullptr ? "no check was made" : worst->name + " " + standing(*worst);
@@ -254,8 +254,8 @@ std::string suiteText(const std::vector<SuiteEntry>& entries, const std::filesys
   for (const SuiteEntry& entry : entries) width = std::max(width, columnsOf(entry.scenario));
   std::string out;
   for (const SuiteEntry& entry : entries)
-    out += fmt::format("{}  {}  {}  {}\n", painted(padded(wordOf(entry), 12), paintOf(entry), coloured),
-                       padded(entry.scenario, width), why(entry),
+    out += fmt::format("{}  {}  {}  {}\n", painted(padded(wordOf(entry), verdict_width), paintOf(entry), coloured),
+                       padded(entry.scenario, width), entryReason(entry),
                        entry.error.empty() ? (dir / entry.folder / "report.html").string() : "no report");
   return out + countsOf(entries) + "\nindex: " + (dir / "index.html").string() + "\n";
 }

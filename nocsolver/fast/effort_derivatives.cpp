@@ -13,47 +13,42 @@
 namespace ursula {
 namespace {
 
-/// Number of variables that one pass differentiates by: the state δ, p, ω, ṗ, ω̇, p̈, or as many parameters of the
-/// machine. The kernels are compiled once, because both have the same width.
-constexpr int at_a_time = 18;
+/// Width of a pass: the 18 components of the state δ, p, ω, ṗ, ω̇, p̈, or 18 parameters, so that kernels are compiled
+/// once.
+constexpr int dual_width = 18;
 /// A number with its derivatives.
-using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, at_a_time, 1>>;
+using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, dual_width, 1>>;
 
-template <class S>
-Vector3<S> constant(const Vector3d& v) {
-  return v.cast<S>();
-}
-
-template <class S>
-Motion<S> constant(const Motion<double>& m) {
-  return {S(m.t),
-          constant<S>(m.p),
-          m.Q.cast<S>(),
-          constant<S>(m.omega),
-          constant<S>(m.p_dot),
-          constant<S>(m.omega_dot),
-          constant<S>(m.p_ddot)};
+Motion<Dual> constant(const Motion<double>& m) {
+  return {Dual(m.t),
+          m.p.cast<Dual>(),
+          m.Q.cast<Dual>(),
+          m.omega.cast<Dual>(),
+          m.p_dot.cast<Dual>(),
+          m.omega_dot.cast<Dual>(),
+          m.p_ddot.cast<Dual>()};
 }
 
 /// Refuses a pose by the values alone, whatever the derivatives are.
-template <class S>
 struct GuardOfValues {
   kernel::LegGuard<double> guard;
 
-  void reach(const S& inside, const S& square, const S& bound) const {
+  void reach(const Dual& inside, const Dual& square, const Dual& bound) const {
     guard.reach(inside.value(), square.value(), bound.value());
   }
-  void stroke(const S& d, const S& least, const S& most) const { guard.stroke(d.value(), least.value(), most.value()); }
-  void offAxis(const S& r, const S& size) const { guard.offAxis(r.value(), size.value()); }
-  void regular(const S& sine, const char* what) const { guard.regular(sine.value(), what); }
+  void stroke(const Dual& d, const Dual& least, const Dual& most) const {
+    guard.stroke(d.value(), least.value(), most.value());
+  }
+  void offAxis(const Dual& r, const Dual& size) const { guard.offAxis(r.value(), size.value()); }
+  void regular(const Dual& sine, const char* what) const { guard.regular(sine.value(), what); }
 };
 
 /// Inverse dynamics by the kernels.
-template <class S>
-Vector6<S> efforts(const kernel::MachineModel<S>& machine, const Motion<S>& motion, const Vector6<S>& load) {
-  S pivots;
-  const auto guardOf = [&motion](int leg) { return GuardOfValues<S>{{leg, motion.t.value()}}; };
-  const Vector6<S> found = kernel::inverseDynamics<S>(machine, motion, load, guardOf, pivots);
+Vector6<Dual> efforts(const kernel::MachineModel<Dual>& machine, const Motion<Dual>& motion,
+                      const Vector6<Dual>& load) {
+  Dual pivots;
+  const auto guardOf = [&motion](int leg) { return GuardOfValues{{leg, motion.t.value()}}; };
+  const Vector6<Dual> found = kernel::inverseDynamics<Dual>(machine, motion, load, guardOf, pivots);
   legs::requireRegularB(pivots.value(), motion.t.value());
   return found;
 }
@@ -63,27 +58,27 @@ void seed(int first, Vector3<Dual>& v) {
 }
 
 /// A machine with its axes as given, without normalisation.
-struct WrittenMachine {
+struct UnnormalisedMachine {
   MachineParameters<Dual> parameters;
   std::array<Vector3<Dual>, leg_count> axis;
 
-  explicit WrittenMachine(const Manipulator& manipulator) : parameters(manipulator) {
+  explicit UnnormalisedMachine(const Manipulator& manipulator) : parameters(manipulator) {
     for (int i = 0; i < manipulator.legCount(); ++i)
-      axis[static_cast<std::size_t>(i)] = constant<Dual>(manipulator.leg(i).base_axis);
+      axis[static_cast<std::size_t>(i)] = manipulator.leg(i).base_axis.cast<Dual>();
   }
 };
 
-/// Makes `slope` the derivative by this number.
-void vary(WrittenMachine& machine, const MachineNumber& number, int slope) {
+/// Seeds derivative `column` with this number.
+void seed(UnnormalisedMachine& machine, const MachineNumber& number, int column) {
   MachineParameters<Dual>& m = machine.parameters;
   const auto i = static_cast<std::size_t>(std::max(number.leg, 0)), k = static_cast<std::size_t>(number.entry);
   LegModel<Dual>& leg = m.legs[i];
   const bool proximal = number.body == "proximal";
-  const auto one = [slope](Dual& place) { place.derivatives()(slope) = 1; };
+  const auto one = [column](Dual& place) { place.derivatives()(column) = 1; };
   const auto entry = [&](Matrix3<Dual>& I) {
-    const auto& [row, column] = tensor_entries[k];
-    one(I(row, column));
-    one(I(column, row));
+    const auto& [row, across] = tensor_entries[k];
+    one(I(row, across));
+    one(I(across, row));
   };
   const auto speeds = [&](bool sliding) {
     for (std::size_t j = 0; j < 3; ++j)
@@ -127,9 +122,8 @@ void vary(WrittenMachine& machine, const MachineNumber& number, int slope) {
   }
 }
 
-/// Bodies of mass 1 at P and at the links' first ends, without inertia. Their derivatives by mass, distance and inertia
-/// are the columns of the regressor.
-WrittenMachine unitBodies(WrittenMachine machine) {
+/// Unit point masses at P and at the links' first ends: derivatives there are the regressor's columns.
+UnnormalisedMachine unitBodies(UnnormalisedMachine machine) {
   MachineParameters<Dual>& m = machine.parameters;
   m.mass = 1;
   m.rho.setZero();
@@ -157,8 +151,7 @@ ManipulatorParameters withMoments(ManipulatorParameters machine) {
   platform.center_of_mass *= platform.mass;
   for (Leg& leg : machine.legs)
     for (Link* link : {&leg.proximal, &leg.distal}) {
-      const Vector3d center =
-          link->off_line + link->center_of_mass * Vector3d::UnitZ();  // a carriage's mass centre does not count
+      const Vector3d center = link->off_line + link->center_of_mass * Vector3d::UnitZ();
       link->inertia = about(link->mass, center, link->inertia);
       link->center_of_mass *= link->mass;
       link->off_line *= link->mass;
@@ -169,7 +162,7 @@ ManipulatorParameters withMoments(ManipulatorParameters machine) {
 /// The name of the replacing parameter: "manipulator.leg.2.distal.first_moment".
 std::string momentName(const MachineNumber& number) {
   std::string out = number.path;
-  if (number.group == "rotor") return out;
+  if (number.quantity == Quantity::rotor_inertia) return out;
   const auto rename = [&out](const std::string& from, const char* to) {
     if (const auto at = out.find(from); at != std::string::npos) out.replace(at, from.size(), to);
   };
@@ -179,10 +172,18 @@ std::string momentName(const MachineNumber& number) {
 }
 
 bool isLinear(const MachineNumber& number) {
-  const bool speed = number.quantity == Quantity::smoothing_speed || number.quantity == Quantity::sliding_speed;
-  const auto& group = number.group;
-  return group == "mass" || group == "center" || group == "inertia" || group == "rotor" ||
-         (group == "friction" && !speed);
+  switch (number.quantity) {
+    case Quantity::gravity:
+    case Quantity::base_point:
+    case Quantity::platform_point:
+    case Quantity::base_axis:
+    case Quantity::length:
+    case Quantity::smoothing_speed:
+    case Quantity::sliding_speed:
+      return false;
+    default:
+      return true;
+  }
 }
 
 }  // namespace
@@ -204,17 +205,17 @@ struct EffortDerivatives::Impl {
     }
   }
 
-  /// Computes a column for each number of `at`; one pass handles as many as a dual number has slopes.
-  static Columns columns(const WrittenMachine& at, const std::vector<MachineNumber>& numbers,
+  /// Computes a column for each number of `at`; one pass handles `dual_width`.
+  static Columns columns(const UnnormalisedMachine& at, const std::vector<MachineNumber>& numbers,
                          const Motion<double>& motion, const Vector6d& load) {
     const int count = static_cast<int>(numbers.size());
     Columns out(6, count);
-    const Motion<Dual> m = constant<Dual>(motion);
+    const Motion<Dual> m = constant(motion);
     const Vector6<Dual> on_platform = load.cast<Dual>();
-    for (int first = 0; first < count; first += at_a_time) {
-      const int here = std::min(at_a_time, count - first);
-      WrittenMachine seeded = at;
-      for (int k = 0; k < here; ++k) vary(seeded, numbers[static_cast<std::size_t>(first + k)], k);
+    for (int first = 0; first < count; first += dual_width) {
+      const int here = std::min(dual_width, count - first);
+      UnnormalisedMachine seeded = at;
+      for (int k = 0; k < here; ++k) seed(seeded, numbers[static_cast<std::size_t>(first + k)], k);
       const Vector6<Dual> found = efforts(modelOf(seeded), m, on_platform);
       for (int k = 0; k < here; ++k)
         for (int row = 0; row < 6; ++row) out(row, first + k) = found(row).derivatives()(k);
@@ -223,8 +224,9 @@ struct EffortDerivatives::Impl {
     return out;
   }
 
-  /// Enables all friction that could exist, and derives the frames from the varied axes.
-  static kernel::MachineModel<Dual> modelOf(WrittenMachine& seeded) {
+  /// The kernels' model with derivatives. Frames follow the axes, and zero friction and products of inertia are kept,
+  /// because they have derivatives.
+  static kernel::MachineModel<Dual> modelOf(UnnormalisedMachine& seeded) {
     MachineParameters<Dual>& m = seeded.parameters;
     for (std::size_t i = 0; i < static_cast<std::size_t>(m.legs_in_all); ++i)
       setFixedFrame<Dual>(seeded.axis[i], m.legs[i].x_hat, m.legs[i].u, m.legs[i].z_hat);
@@ -237,7 +239,7 @@ struct EffortDerivatives::Impl {
   }
 
   kernel::MachineModel<Dual> by_state;
-  WrittenMachine machine, unit;
+  UnnormalisedMachine machine, unit;
   std::vector<MachineNumber> numbers, linear;
   ManipulatorParameters raw;
   std::vector<std::string> parameters, regressor;
@@ -249,7 +251,7 @@ EffortDerivatives::EffortDerivatives(const Manipulator& manipulator)
 
 EffortsByState EffortDerivatives::byState(const Motion<double>& motion, const Vector6d& load,
                                           const EffortsByState::Block& load_by_turn) const {
-  Motion<Dual> m = constant<Dual>(motion);
+  Motion<Dual> m = constant(motion);
   for (int k = 0; k < 3; ++k) {  // Q becomes exp([δ]×) Q
     const Vector3d q = motion.Q.col(k);
     for (int j = 0; j < 3; ++j) {

@@ -30,8 +30,8 @@ S frictionForce(const S& viscous, const S& coulomb, const S& speed, const S& rat
 
 // --- M, W and the wrenches ------------------------------------------------------------------------------------------
 
-template <class S, class R>
-S Noc<S, R>::massOf(int body) const {
+template <class S, class Formulas>
+S Noc<S, Formulas>::massOf(int body) const {
   if (body == legs::platform) return machine_.mass;
   if (body % leg_count >= machine_.legs_in_all) return S(0);
   const LegModel<S>& leg = machine_.legs[legs::at(body % leg_count)];
@@ -40,8 +40,8 @@ S Noc<S, R>::massOf(int body) const {
 }
 
 /// Tensors about the mass centres, in B, from the displacements.
-template <class S, class R>
-BodyTensors<S> Noc<S, R>::tensors(const NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+BodyTensors<S> Noc<S, Formulas>::tensors(const NocWorkspace<S>& work) const {
   BodyTensors<S> out;
   out.fill(Matrix3<S>::Zero());
   const auto turned = [](const Matrix3<S>& frame, const Matrix3<S>& I) {
@@ -61,16 +61,16 @@ BodyTensors<S> Noc<S, R>::tensors(const NocWorkspace<S>& work) const {
 }
 
 /// Mᵢ x of (29), (30b).
-template <class S, class R>
-Vector6<S> Noc<S, R>::M(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const {
+template <class S, class Formulas>
+Vector6<S> Noc<S, Formulas>::M(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const {
   Vector6<S> out;
   out << work.I_B[legs::at(body)] * x.template head<3>(), massOf(body) * x.template tail<3>();  // (paper, eq. 29)
   return out;
 }
 
 /// Wᵢ x of (29), (30b).
-template <class S, class R>
-Vector6<S> Noc<S, R>::W(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const {
+template <class S, class Formulas>
+Vector6<S> Noc<S, Formulas>::W(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const {
   const Vector3<S> omega = work.bodies[legs::at(body)].twist.template head<3>();
   Vector6<S> out = Vector6<S>::Zero();
   if (formulas_.has(body == legs::platform ? FormulaError::drop_gyroscopic_platform
@@ -80,8 +80,8 @@ Vector6<S> Noc<S, R>::W(int body, const NocWorkspace<S>& work, const Vector6<S>&
   return out;
 }
 
-template <class S, class R>
-BodyVector<S> Noc<S, R>::inertiaWrench(const NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+BodyVector<S> Noc<S, Formulas>::inertiaWrench(const NocWorkspace<S>& work) const {
   BodyVector<S> w_n = BodyVector<S>::Zero();
   for (int b = 0; b < body_count; ++b) {
     const BodyMotion<S>& body = work.bodies[legs::at(b)];
@@ -90,8 +90,8 @@ BodyVector<S> Noc<S, R>::inertiaWrench(const NocWorkspace<S>& work) const {
   return w_n;
 }
 
-template <class S, class R>
-BodyVector<S> Noc<S, R>::gravityWrench() const {
+template <class S, class Formulas>
+BodyVector<S> Noc<S, Formulas>::gravityWrench() const {
   BodyVector<S> w_g = BodyVector<S>::Zero();
   for (int b = 0; b < body_count; ++b)
     if (!formulas_.has(b == legs::platform ? FormulaError::drop_gravity_platform : FormulaError::drop_gravity_legs))
@@ -99,9 +99,10 @@ BodyVector<S> Noc<S, R>::gravityWrench() const {
   return w_g;
 }
 
-/// Adds the wrench of an effort on joint j of leg i to the outboard link, and its reaction to the inboard one.
-template <class S, class R>
-void Noc<S, R>::addJointWrench(const NocWorkspace<S>& work, int i, int j, const S& effort, BodyVector<S>& w) const {
+/// Adds an effort's wrench at joint j of leg i to the outboard link; the inboard link, or the base, takes the reaction.
+template <class S, class Formulas>
+void Noc<S, Formulas>::addJointWrench(const NocWorkspace<S>& work, int i, int j, const S& effort,
+                                      BodyVector<S>& w) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   const LegState<S>& at = work.legs[legs::at(i)];
   const LegKindRow& row = rowOf(leg.kind);
@@ -115,30 +116,30 @@ void Noc<S, R>::addJointWrench(const NocWorkspace<S>& work, int i, int j, const 
     to.template head<3>() += (leg.a + at.O_2 - work.bodies[legs::at(body)].c).cross(on);
     to.template tail<3>() += on;
   };
-  const bool before = j < row.joints_of_proximal;
-  add(before ? i : leg_count + i, along);
-  if (!before) add(i, -along);
+  const bool on_proximal = j < row.joints_of_proximal;
+  add(on_proximal ? i : leg_count + i, along);
+  if (!on_proximal) add(i, -along);
 }
 
 /// w^d of (35): joint friction.
-template <class S, class R>
-BodyVector<S> Noc<S, R>::dissipativeWrench(const NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+BodyVector<S> Noc<S, Formulas>::dissipativeWrench(const NocWorkspace<S>& work) const {
   BodyVector<S> w_d = BodyVector<S>::Zero();
   if (formulas_.has(FormulaError::drop_friction)) return w_d;
   for (int i = 0; i < machine_.legs_in_all; ++i)
     for (int j = 0; j < 3; ++j) {
       const LegModel<S>& leg = machine_.legs[legs::at(i)];
       const std::size_t k = legs::at(j);
-      const S against =
+      const S resistance =
           legs::frictionForce(leg.viscous[k], leg.coulomb[k], leg.speed[k], work.legs[legs::at(i)].rate(j));
-      if (against != S(0)) addJointWrench(work, i, j, S(-against), w_d);
+      if (resistance != S(0)) addJointWrench(work, i, j, S(-resistance), w_d);
     }
   return w_d;
 }
 
 /// Moves the load to the platform's mass centre.
-template <class S, class R>
-BodyVector<S> Noc<S, R>::loadWrench(const Motion<S>& motion, const Vector6<S>& load) const {
+template <class S, class Formulas>
+BodyVector<S> Noc<S, Formulas>::loadWrench(const Motion<S>& motion, const Vector6<S>& load) const {
   BodyVector<S> w_e = BodyVector<S>::Zero();
   const Vector3<S> force = load.template tail<3>();
   if (!formulas_.has(FormulaError::drop_load))
@@ -146,8 +147,8 @@ BodyVector<S> Noc<S, R>::loadWrench(const Motion<S>& motion, const Vector6<S>& l
   return w_e;
 }
 
-template <class S, class R>
-BodyVector<S> Noc<S, R>::actuatorWrench(const NocWorkspace<S>& work, const Vector6<S>& efforts) const {
+template <class S, class Formulas>
+BodyVector<S> Noc<S, Formulas>::actuatorWrench(const NocWorkspace<S>& work, const Vector6<S>& efforts) const {
   BodyVector<S> w_a = BodyVector<S>::Zero();
   for (int m = 0; m < motor_count; ++m) {
     const Motor& motor = machine_.motors[legs::at(m)];
@@ -157,26 +158,26 @@ BodyVector<S> Noc<S, R>::actuatorWrench(const NocWorkspace<S>& work, const Vecto
 }
 
 /// Sets t and ṫ of (30a), and the tensors for M of (30b).
-template <class S, class R>
-void Noc<S, R>::setBodies(const Motion<S>& motion, NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+void Noc<S, Formulas>::setBodies(const Motion<S>& motion, NocWorkspace<S>& work) const {
   bodyMotions(motion, work, work.bodies);  // (paper, eq. 30a)
   work.I_B = tensors(work);                // (paper, eq. 30b)
 }
 
-// --- rotors, which the paper lacks ---
+// --- rotors (not in the paper) ---
 //
 // A rotor that turns with its motor's rate q̇ adds the energy ½ j q̇² to that of (30a). By Lagrange's equations
 //   I q̈ + C q̇ becomes (I + diag j) q̈ + C q̇, in (36), and τ^a of (37) gains j q̈.
 
-template <class S, class R>
-bool Noc<S, R>::hasRotors() const {
+template <class S, class Formulas>
+bool Noc<S, Formulas>::hasRotors() const {
   for (int i = 0; i < machine_.legs_in_all; ++i)
     if (machine_.legs[legs::at(i)].has_rotor) return true;
   return false;
 }
 
-template <class S, class R>
-Vector6<S> Noc<S, R>::rotors() const {
+template <class S, class Formulas>
+Vector6<S> Noc<S, Formulas>::rotors() const {
   Vector6<S> j;
   for (int m = 0; m < motor_count; ++m) {
     const Motor& motor = machine_.motors[legs::at(m)];
@@ -187,8 +188,8 @@ Vector6<S> Noc<S, R>::rotors() const {
 }
 
 /// j q̈ for the accelerations in `work`.
-template <class S, class R>
-Vector6<S> Noc<S, R>::rotorEfforts(const NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+Vector6<S> Noc<S, Formulas>::rotorEfforts(const NocWorkspace<S>& work) const {
   Vector6<S> out = rotors();
   for (int m = 0; m < motor_count; ++m) {
     const Motor& motor = machine_.motors[legs::at(m)];
@@ -199,8 +200,9 @@ Vector6<S> Noc<S, R>::rotorEfforts(const NocWorkspace<S>& work) const {
 
 // --- inverse and direct dynamics ------------------------------------------------------------------------------------
 
-template <class S, class R>
-Vector6<S> Noc<S, R>::inverseDynamics(const Motion<S>& motion, NocWorkspace<S>& work, const Vector6<S>& load) const {
+template <class S, class Formulas>
+Vector6<S> Noc<S, Formulas>::inverseDynamics(const Motion<S>& motion, NocWorkspace<S>& work,
+                                             const Vector6<S>& load) const {
   inverseKinematics(motion, work);
   jacobians(motion, work);
   setBodies(motion, work);
@@ -216,8 +218,8 @@ Vector6<S> Noc<S, R>::inverseDynamics(const Motion<S>& motion, NocWorkspace<S>& 
 }
 
 /// M X, body by body.
-template <class S, class R>
-TwistShaping<S> Noc<S, R>::massTimes(const BodyTensors<S>& tensors, const TwistShaping<S>& X) const {
+template <class S, class Formulas>
+TwistShaping<S> Noc<S, Formulas>::massTimes(const BodyTensors<S>& tensors, const TwistShaping<S>& X) const {
   TwistShaping<S> out;
   for (int b = 0; b < body_count; ++b) {
     legs::block(out, b).template topRows<3>().noalias() =
@@ -227,15 +229,15 @@ TwistShaping<S> Noc<S, R>::massTimes(const BodyTensors<S>& tensors, const TwistS
   return out;
 }
 
-template <class S, class R>
-Matrix6<S> Noc<S, R>::I(const NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+Matrix6<S> Noc<S, Formulas>::I(const NocWorkspace<S>& work) const {
   Matrix6<S> I = work.T.transpose().lazyProduct(massTimes(work.I_B, work.T));  // (paper, eq. 34)
   if (hasRotors()) I.diagonal() += rotors();
   return I;
 }
 
-template <class S, class R>
-Matrix6<S> Noc<S, R>::C(const NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+Matrix6<S> Noc<S, Formulas>::C(const NocWorkspace<S>& work) const {
   TwistShaping<S> sum = massTimes(work.I_B, work.T_rate);
   if (formulas_.has(FormulaError::drop_T_rate)) sum.setZero();
   const TwistShaping<S> MT = massTimes(work.I_B, work.T);
@@ -245,9 +247,9 @@ Matrix6<S> Noc<S, R>::C(const NocWorkspace<S>& work) const {
   return work.T.transpose().lazyProduct(sum);  // (paper, eq. 34)
 }
 
-template <class S, class R>
-Vector6<S> Noc<S, R>::directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, NocWorkspace<S>& work,
-                                     const Vector6<S>& load) const {
+template <class S, class Formulas>
+Vector6<S> Noc<S, Formulas>::directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, NocWorkspace<S>& work,
+                                            const Vector6<S>& load) const {
   Motion<S> unaccelerated = motion;
   unaccelerated.omega_dot.setZero();
   unaccelerated.p_ddot.setZero();
@@ -265,8 +267,9 @@ Vector6<S> Noc<S, R>::directDynamics(const Motion<S>& motion, const Vector6<S>& 
   return work.T_P * q_ddot + work.T_P_rate * q_dot;                                // (paper, eq. 25)
 }
 
-template <class S, class R>
-Matrix6<S> Noc<S, R>::massMatrixAtP(const Motion<S>& motion, const NocWorkspace<S>& work) const {
+/// M_P = TᵀMT with t = T t_P, by unit twists of the platform.
+template <class S, class Formulas>
+Matrix6<S> Noc<S, Formulas>::massMatrixAtP(const Motion<S>& motion, const NocWorkspace<S>& work) const {
   TwistShaping<S> T = TwistShaping<S>::Zero();
   Matrix6<S> J;  // q̇ of the motors for unit twists
   const Matrix6<S> unit = Matrix6<S>::Identity();

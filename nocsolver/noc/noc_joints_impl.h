@@ -80,9 +80,9 @@ class ConstraintRows {
 
 }  // namespace legs
 
-template <class S, class R>
-Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> Noc<S, R>::D(const Motion<S>& motion,
-                                                              const NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> Noc<S, Formulas>::D(const Motion<S>& motion,
+                                                                     const NocWorkspace<S>& work) const {
   using Rows = legs::ConstraintRows<S>;
   const typename Rows::Body base{-1, Vector3<S>::Zero()}, platform{6 * legs::platform, work.bodies.back().c};
   Rows rows(12 * machine_.legs_in_all);
@@ -102,16 +102,17 @@ Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> Noc<S, R>::D(const Motion<S>& m
   return D;
 }
 
-template <class S, class R>
-BodyVector<S> Noc<S, R>::constraintWrench(const Motion<S>& motion, const Vector6<S>& efforts,
-                                          const NocWorkspace<S>& work, const Vector6<S>& load) const {
+template <class S, class Formulas>
+BodyVector<S> Noc<S, Formulas>::constraintWrench(const Motion<S>& motion, const Vector6<S>& efforts,
+                                                 const NocWorkspace<S>& work, const Vector6<S>& load) const {
   const Vector6<S> on_links = efforts - rotorEfforts(work);
   const BodyVector<S> w_W = actuatorWrench(work, on_links) + gravityWrench() + dissipativeWrench(work);
   return -inertiaWrench(work) - w_W - loadWrench(motion, load);  // (paper, eq. 31)
 }
 
-template <class S, class R>
-Reactions Noc<S, R>::reactions(const Motion<S>& motion, const Vector6<S>& efforts, const NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+Reactions Noc<S, Formulas>::reactions(const Motion<S>& motion, const Vector6<S>& efforts,
+                                      const NocWorkspace<S>& work) const {
   const Vector6<S> on_links = efforts - rotorEfforts(work);
   const BodyVector<S> moving = -inertiaWrench(work) - gravityWrench(), w_d = dissipativeWrench(work);
   Reactions out;

@@ -12,8 +12,9 @@ namespace legs {
 inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 }  // namespace legs
 
-template <class S, class R>
-Noc<S, R>::Noc(const MachineParameters<S>& machine, R formulas) : machine_(machine), formulas_(std::move(formulas)) {
+template <class S, class Formulas>
+Noc<S, Formulas>::Noc(const MachineParameters<S>& machine, Formulas formulas)
+    : machine_(machine), formulas_(std::move(formulas)) {
   formulas_.read(machine_);
   if (!formulas_.has(FormulaError::eq2)) return;
   for (LegModel<S>& leg : machine_.legs) {  // (paper, eq. 2b) as printed: orthonormal only without tilt
@@ -24,8 +25,8 @@ Noc<S, R>::Noc(const MachineParameters<S>& machine, R formulas) : machine_(machi
   }
 }
 
-template <class S, class R>
-void Noc<S, R>::place(const Motion<S>& motion, int i, LegState<S>& out) const {
+template <class S, class Formulas>
+void Noc<S, Formulas>::place(const Motion<S>& motion, int i, LegState<S>& out) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   out.Qb.noalias() = motion.Q * leg.b;
   out.AB = (motion.p - leg.a) + out.Qb;  // (paper, eq. 3), in an order that keeps digits far from the base's origin
@@ -43,14 +44,14 @@ void Noc<S, R>::place(const Motion<S>& motion, int i, LegState<S>& out) const {
   formulas_.mapped(leg, out);
 }
 
-template <class S, class R>
-void Noc<S, R>::displacements(const Motion<S>& motion, NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+void Noc<S, Formulas>::displacements(const Motion<S>& motion, NocWorkspace<S>& work) const {
   work.Q = motion.Q;
   for (int i = 0; i < machine_.legs_in_all; ++i) place(motion, i, work.legs[legs::at(i)]);
 }
 
-template <class S, class R>
-void Noc<S, R>::inverseKinematics(const Motion<S>& motion, NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+void Noc<S, Formulas>::inverseKinematics(const Motion<S>& motion, NocWorkspace<S>& work) const {
   work.Q = motion.Q;
   for (int i = 0; i < machine_.legs_in_all; ++i) {
     const LegModel<S>& leg = machine_.legs[legs::at(i)];
@@ -82,8 +83,8 @@ JointVariables<S> collect(const MachineParameters<S>& machine, const F& f) {
 }
 }  // namespace legs
 
-template <class S, class R>
-JointVariables<S> Noc<S, R>::angles(const NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+JointVariables<S> Noc<S, Formulas>::angles(const NocWorkspace<S>& work) const {
   using std::atan2;
   JointVariables<S> q = legs::collect(machine_, [&](int i, int j, Coordinate coordinate) {
     const LegState<S>& at = work.legs[legs::at(i)];
@@ -101,18 +102,18 @@ JointVariables<S> Noc<S, R>::angles(const NocWorkspace<S>& work) const {
   return q;
 }
 
-template <class S, class R>
-JointVariables<S> Noc<S, R>::rates(const NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+JointVariables<S> Noc<S, Formulas>::rates(const NocWorkspace<S>& work) const {
   return legs::collect(machine_, [&](int i, int j, Coordinate) { return work.legs[legs::at(i)].rate(j); });
 }
 
-template <class S, class R>
-JointVariables<S> Noc<S, R>::accelerations(const NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+JointVariables<S> Noc<S, Formulas>::accelerations(const NocWorkspace<S>& work) const {
   return legs::collect(machine_, [&](int i, int j, Coordinate) { return work.legs[legs::at(i)].acceleration(j); });
 }
 
-template <class S, class R>
-void Noc<S, R>::jacobians(const Motion<S>& motion, NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+void Noc<S, Formulas>::jacobians(const Motion<S>& motion, NocWorkspace<S>& work) const {
   for (int m = 0; m < motor_count; ++m) {
     const Motor& motor = machine_.motors[legs::at(m)];
     const LegState<S>& leg = work.legs[legs::at(motor.leg)];
@@ -130,15 +131,15 @@ void Noc<S, R>::jacobians(const Motion<S>& motion, NocWorkspace<S>& work) const 
   legs::requireRegularB<S>(pivots.minCoeff() / pivots.maxCoeff(), motion.t);
 }
 
-template <class S, class R>
-Matrix6<S> Noc<S, R>::platformShaping(const NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+Matrix6<S> Noc<S, Formulas>::platformShaping(const NocWorkspace<S>& work) const {
   Matrix6<S> T = work.B_transposed.transpose().solve(Matrix6<S>(work.A.asDiagonal()));  // (paper, eq. 24)
   T.template topRows<3>() /= machine_.length;
   return T;
 }
 
-template <class S, class R>
-Matrix6<S> Noc<S, R>::platformShapingRate(const Motion<S>& motion, const NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+Matrix6<S> Noc<S, Formulas>::platformShapingRate(const Motion<S>& motion, const NocWorkspace<S>& work) const {
   if (formulas_.has(FormulaError::drop_row_rates)) return Matrix6<S>::Zero();
   Matrix6<S> B_dot;
   Vector6<S> A_dot;

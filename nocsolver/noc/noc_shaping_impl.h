@@ -27,9 +27,9 @@ Vector3<S> velocityOf(const Vector6<S>& twist, const Vector3<S>& arm) {
 
 // --- bodies and their twists ----------------------------------------------------------------------------------------
 
-template <class S, class R>
-LinkMotions<S> Noc<S, R>::links(int i, const LegState<S>& at, const Vector3<S>& rate,
-                                const Vector3<S>& acceleration) const {
+template <class S, class Formulas>
+LinkMotions<S> Noc<S, Formulas>::links(int i, const LegState<S>& at, const Vector3<S>& rate,
+                                       const Vector3<S>& acceleration) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   LinkMotions<S> out =
       legs::withLeg(leg.kind, [&](auto kind) { return kind.links(leg, at, rate, acceleration, formulas_); });
@@ -39,8 +39,8 @@ LinkMotions<S> Noc<S, R>::links(int i, const LegState<S>& at, const Vector3<S>& 
 
 /// Moves twists from the points on the links' lines to the mass centres. It is bilinear like the links of each kind:
 /// `links` may hold ω of a column of T. The frame moves as `at` does.
-template <class S, class R>
-void Noc<S, R>::addOffLine(int i, const LegState<S>& at, LinkMotions<S>& links) const {
+template <class S, class Formulas>
+void Noc<S, Formulas>::addOffLine(int i, const LegState<S>& at, LinkMotions<S>& links) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   const LinkMotions<S> now = legs::withLeg(leg.kind, [&](auto kind) {
     return kind.template links<false>(leg, at, at.rate, Vector3<S>(Vector3<S>::Zero()), formulas_);
@@ -54,13 +54,13 @@ void Noc<S, R>::addOffLine(int i, const LegState<S>& at, LinkMotions<S>& links) 
   add(at.R_2 * leg.off_2, now.distal.omega, links.distal);
 }
 
-template <class S, class R>
-Vector3<S> Noc<S, R>::platformArm(const Motion<S>& motion) const {
+template <class S, class Formulas>
+Vector3<S> Noc<S, Formulas>::platformArm(const Motion<S>& motion) const {
   return motion.Q * machine_.rho;
 }
 
-template <class S, class R>
-void Noc<S, R>::bodyMotions(const Motion<S>& motion, const NocWorkspace<S>& work, BodyMotions<S>& bodies) const {
+template <class S, class Formulas>
+void Noc<S, Formulas>::bodyMotions(const Motion<S>& motion, const NocWorkspace<S>& work, BodyMotions<S>& bodies) const {
   bodies = BodyMotions<S>();
   for (int i = 0; i < machine_.legs_in_all; ++i) {
     const LegModel<S>& leg = machine_.legs[legs::at(i)];
@@ -91,8 +91,8 @@ void Noc<S, R>::bodyMotions(const Motion<S>& motion, const NocWorkspace<S>& work
 // --- T and its rate -------------------------------------------------------------------------------------------------
 
 /// Twists of both links for a unit rate of each of the leg's joints; `with_rate` adds the rates of these twists.
-template <class S, class R>
-typename Noc<S, R>::UnitTwists Noc<S, R>::unitTwists(int i, const LegState<S>& at, bool with_rate) const {
+template <class S, class Formulas>
+typename Noc<S, Formulas>::UnitTwists Noc<S, Formulas>::unitTwists(int i, const LegState<S>& at, bool with_rate) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   UnitTwists out;
   legs::withLeg(leg.kind, [&](auto kind) {
@@ -112,8 +112,9 @@ typename Noc<S, R>::UnitTwists Noc<S, R>::unitTwists(int i, const LegState<S>& a
 }
 
 /// Rates of leg i's joints for the platform twists in the columns of `T_P`; linear in the velocity of Bᵢ.
-template <class S, class R>
-typename Noc<S, R>::Rates Noc<S, R>::ratesForTwists(int i, const LegState<S>& at, const Matrix6<S>& T_P) const {
+template <class S, class Formulas>
+typename Noc<S, Formulas>::Rates Noc<S, Formulas>::ratesForTwists(int i, const LegState<S>& at,
+                                                                  const Matrix6<S>& T_P) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   Matrix3<S> by_v_B;
   legs::withLeg(leg.kind, [&](auto kind) {
@@ -125,8 +126,9 @@ typename Noc<S, R>::Rates Noc<S, R>::ratesForTwists(int i, const LegState<S>& at
 }
 
 /// Rates of leg i's joints for q̇ = e_m in column m: δ_m of (48) for the leg.
-template <class S, class R>
-typename Noc<S, R>::Rates Noc<S, R>::columnRates(int i, const LegState<S>& at, const Matrix6<S>& T_P) const {
+template <class S, class Formulas>
+typename Noc<S, Formulas>::Rates Noc<S, Formulas>::columnRates(int i, const LegState<S>& at,
+                                                               const Matrix6<S>& T_P) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   Rates out = ratesForTwists(i, at, T_P);
   for (int j = 0; j < 3; ++j) {
@@ -139,9 +141,10 @@ typename Noc<S, R>::Rates Noc<S, R>::columnRates(int i, const LegState<S>& at, c
 }
 
 /// The rates of columnRates; a column's own unit rate is constant, so its rate is zero.
-template <class S, class R>
-typename Noc<S, R>::Rates Noc<S, R>::columnAccelerations(const Motion<S>& motion, int i, const NocWorkspace<S>& work,
-                                                         const Rates& rates) const {
+template <class S, class Formulas>
+typename Noc<S, Formulas>::Rates Noc<S, Formulas>::columnAccelerations(const Motion<S>& motion, int i,
+                                                                       const NocWorkspace<S>& work,
+                                                                       const Rates& rates) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   const LegState<S>& at = work.legs[legs::at(i)];
   Rates out;
@@ -156,36 +159,36 @@ typename Noc<S, R>::Rates Noc<S, R>::columnAccelerations(const Motion<S>& motion
 }
 
 /// The rate of the velocity that column m gives to the platform's point at `arm` from P.
-template <class S, class R>
-Vector3<S> Noc<S, R>::columnAcceleration(const Motion<S>& motion, const NocWorkspace<S>& work, int m,
-                                         const Vector3<S>& arm) const {
+template <class S, class Formulas>
+Vector3<S> Noc<S, Formulas>::columnAcceleration(const Motion<S>& motion, const NocWorkspace<S>& work, int m,
+                                                const Vector3<S>& arm) const {
   const Vector3<S> omega = work.T_P.col(m).template head<3>();
   return legs::velocityOf<S>(work.T_P_rate.col(m), arm) + omega.cross(motion.omega.cross(arm));
 }
 
 /// Moves the platform's twists from P to its mass centre at `arm` from P.
-template <class S, class R>
-void Noc<S, R>::shapePlatform(const Vector3<S>& arm, const Matrix6<S>& T_P, TwistShaping<S>& T) const {
+template <class S, class Formulas>
+void Noc<S, Formulas>::shapePlatform(const Vector3<S>& arm, const Matrix6<S>& T_P, TwistShaping<S>& T) const {
   auto T_C = legs::block(T, legs::platform);
   T_C = T_P;
   for (int m = 0; m < motor_count; ++m)
     T_C.col(m).template tail<3>() = legs::velocityOf<S>(T_P.col(m), arm);  // (paper, eq. 47)
 }
 
-template <class S, class R>
-void Noc<S, R>::twistShaping(const Motion<S>& motion, NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+void Noc<S, Formulas>::twistShaping(const Motion<S>& motion, NocWorkspace<S>& work) const {
   shape(motion, work, false);
 }
 
-template <class S, class R>
-void Noc<S, R>::twistShapingRate(const Motion<S>& motion, NocWorkspace<S>& work) const {
+template <class S, class Formulas>
+void Noc<S, Formulas>::twistShapingRate(const Motion<S>& motion, NocWorkspace<S>& work) const {
   shape(motion, work, true);
 }
 
 /// T column by column as in (48). Its rate comes from the accelerations of (17), (43) in the actual motion, for one
 /// column's rates and their rates.
-template <class S, class R>
-void Noc<S, R>::shape(const Motion<S>& motion, NocWorkspace<S>& work, bool with_rate) const {
+template <class S, class Formulas>
+void Noc<S, Formulas>::shape(const Motion<S>& motion, NocWorkspace<S>& work, bool with_rate) const {
   work.T_P = platformShaping(work);
   work.T.setZero();
   shapePlatform(formulas_.has(FormulaError::eq47) ? machine_.rho : platformArm(motion), work.T_P, work.T);  // B_C⁻¹A

@@ -55,8 +55,6 @@ double mismatch(const Values& a, const Values& b) {
   return worst.convert_to<double>();
 }
 
-double largerOf(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
-
 void measure(const Formula& formula, const std::vector<ReferenceState>& states, AuditRow& row) {
   row.residual_printed = row.residual_holds = formula.truth ? 0 : nan;
   for (const ReferenceState& reference : states) {
@@ -64,8 +62,8 @@ void measure(const Formula& formula, const std::vector<ReferenceState>& states, 
     const Values truth = formula.truth(reference);
     row.size = std::max(row.size, mismatch(truth, Values(truth.size(), S(0))));
     row.residual_printed =
-        largerOf(row.residual_printed, formula.printed.side ? mismatch(formula.printed.side(reference), truth) : nan);
-    row.residual_holds = largerOf(
+        larger(row.residual_printed, formula.printed.side ? mismatch(formula.printed.side(reference), truth) : nan);
+    row.residual_holds = larger(
         row.residual_holds, formula.holds.side ? mismatch(formula.holds.side(reference), truth) : row.residual_printed);
   }
 }
@@ -84,7 +82,7 @@ AuditRow rowOf(const Formula& formula, const Scenario& scenario, const std::vect
   WithFormulaErrors formula_errors;
   for (FormulaError formula_error : formula.errors) formula_errors.set(formula_error);
   row.effect =
-      effectOf(scenario, torquesWith(scenario, formula_errors, formula.through_36), torque_samples, replay_tolerance);
+      effectOf(scenario, torquesWith(scenario, formula_errors, formula.only_in_36), torque_samples, replay_tolerance);
   return row;
 }
 
@@ -95,7 +93,7 @@ std::vector<AuditRow> allTogether(const Scenario& scenario, const std::vector<Fo
     WithFormulaErrors formula_errors;
     for (const Formula& formula : formulas)
       for (FormulaError formula_error : formula.errors)
-        if (!formula.through_36 && (with_5 || formula_error != FormulaError::eq5)) formula_errors.set(formula_error);
+        if (!formula.only_in_36 && (with_5 || formula_error != FormulaError::eq5)) formula_errors.set(formula_error);
     AuditRow row;
     row.kind = AuditRow::Kind::fails;
     row.equation = with_5 ? "all together" : "all but (5)";

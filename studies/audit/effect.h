@@ -10,7 +10,7 @@ namespace ursula::audit {
 using Torques = std::function<Vector6d(const Motion<double>&)>;
 
 /// Torques with `formula_errors`, by (37), or by (36) for formulas that only Ṫ needs.
-Torques torquesWith(const Scenario& scenario, const WithFormulaErrors& formula_errors, bool through_36);
+Torques torquesWith(const Scenario& scenario, const WithFormulaErrors& formula_errors, bool only_in_36);
 
 /// Compares torques and replay with those of the correct formulas, at `samples` instants.
 AuditEffect effectOf(const Scenario& scenario, const Torques& torques, int samples, double replay_tolerance);

@@ -62,7 +62,7 @@ struct Formula {
   Side truth;       ///< the expected values
   std::string note = "";
   std::vector<FormulaError> errors = {};  ///< the same error in the solver, to find its effect on the torques
-  bool through_36 = false;                ///< whether (37) does not use it, so that its effect is found by (36)
+  bool only_in_36 = false;                ///< whether (37) does not use it, so that its effect is found by (36)
   bool misprint = false;                  ///< dimensions or types do not match, or a symbol plainly belongs elsewhere
 };
 

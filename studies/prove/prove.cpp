@@ -2,18 +2,16 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <map>
-#include <mutex>
-#include <thread>
+#include <optional>
 
 #include "base/errors.h"
 #include "base/start_threads.h"
 #include "model/instants.h"
 #include "nocsolver/errors.h"
+#include "report/report.h"
 #include "studies/prove/defects.h"
 #include "studies/random/random_scenario.h"
 #include "validation/samples/pointwise.h"
@@ -22,11 +20,11 @@
 namespace ursula {
 namespace {
 
-/// Number of instants for one of many validations: enough for three per step of the replay.
-constexpr int samples_in_a_row = 101;
+/// Samples of one run among many: about three for each step of the replay.
+constexpr int samples_per_run = 101;
 constexpr int samples_of_sensitivity = 31;
 
-/// Simbody's torques of the right machine, for a test whether other torques are caught.
+/// Simbody's torques and their limits, which tell whether a subject's torques are caught.
 class TorqueReference {
  public:
   explicit TorqueReference(const Scenario& scenario)
@@ -36,8 +34,8 @@ class TorqueReference {
       largest_ = std::max(largest_, sample.torques_simbody.cwiseAbs().maxCoeff());
   }
 
-  /// Returns the change of torque relative to the largest; negative if the subject is not caught.
-  double caught(const Subject& subject) const {
+  /// Returns the change of torque relative to the largest, NaN if an answer is missing; nullopt if nothing is caught.
+  std::optional<double> changeIfCaught(const Subject& subject) const {
     double change = 0;
     bool beyond = false;
     try {
@@ -48,9 +46,9 @@ class TorqueReference {
         beyond |= !(error <= sample.torque.limit);
       }
     } catch (const PoseError&) {
-      return 1;  // a missing answer also counts as caught
+      return std::nan("");  // a missing answer also counts as caught
     }
-    return beyond ? change / largest_ : -1;
+    return beyond ? std::optional(change / largest_) : std::nullopt;
   }
 
  private:
@@ -58,20 +56,21 @@ class TorqueReference {
   double largest_ = 0;
 };
 
-/// Tries sixteen decades from 0.1 down, then halves the last one until a hundredth of the error remains.
+/// Lowers the error by decades while it is caught, then bisects the last decade to one in a hundred. A larger error is
+/// taken to be caught if a smaller one is.
 Sensitivity findSensitivity(const Scenario& scenario, const TorqueReference& reference, const Parameter& parameter) {
   Sensitivity out{parameter.path, parameter.group, std::numeric_limits<double>::infinity(), 0};
   const auto tryError = [&](double exponent) {
     const double relative = std::pow(10, exponent);
-    double change = 1;
+    std::optional<double> change = std::nan("");
     try {
-      change = reference.caught(disturbedSubject(scenario, parameter, relative));
+      change = reference.changeIfCaught(disturbedSubject(scenario, parameter, relative));
     } catch (const InvalidParameter&) {
       // An impossible machine is refused before any check.
     }
-    if (change < 0) return false;
+    if (!change) return false;
     out.smallest_caught = relative;
-    out.torque_change = change;
+    out.torque_change = *change;
     return true;
   };
   double exponent = -1;
@@ -85,7 +84,7 @@ Sensitivity findSensitivity(const Scenario& scenario, const TorqueReference& ref
 }  // namespace
 
 Scenario sampledForMany(Scenario scenario) {
-  scenario.simulation.samples = samples_in_a_row;
+  scenario.simulation.samples = samples_per_run;
   return scenario;
 }
 
@@ -110,10 +109,10 @@ RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::f
     const ValidationResult result = validate(scenario, options);
     verdicts[i] = result.verdict;
     checks[i] = result.checks;
-    for (const Check& check : result.checks)
-      if (check.verdict == result.verdict && result.verdict != Verdict::pass && why[i].empty())
-        why[i] = fmt::format("seed {}: {} {:.3g} of {:.3g} {}: {}", seed + i, check.name, check.value, check.limit,
-                             check.unit, check.why);
+    if (result.verdict != Verdict::pass)
+      if (const Check* worst = worstCheck(result.checks))
+        why[i] = fmt::format("seed {}: {} {:.3g} of {:.3g} {}: {}", seed + i, worst->name, worst->value, worst->limit,
+                             worst->unit, worst->why);
     done(count);
   });
   RandomOutcomes out;
@@ -161,7 +160,7 @@ std::vector<SensitivityGroup> groupsOf(const std::vector<Sensitivity>& sensitivi
       continue;
     }
     group.smallest = std::min(group.smallest, each.smallest_caught);
-    group.largest_change = std::max(group.largest_change, each.torque_change);
+    group.largest_change = std::max(group.largest_change, each.torque_change);  // which a NaN leaves
     if (each.smallest_caught > group.worst.smallest_caught) group.worst = each;
   }
   std::vector<SensitivityGroup> out;

@@ -47,7 +47,7 @@ std::string engineOf(const std::string& check);
 struct Sensitivity {
   std::string parameter, group;
   double smallest_caught = 0;  ///< relative; infinite if even 0.1 passes
-  double torque_change = 0;    ///< torque change at that error, relative to the largest torque
+  double torque_change = 0;    ///< torque change at that error, relative to the largest torque; NaN if it was refused
 };
 
 struct RandomOutcomes {
@@ -59,7 +59,7 @@ struct RandomOutcomes {
 /// Validates every defect of allDefects() in turn. Order and content do not depend on `jobs`.
 DefectProof proveDefects(const Scenario& scenario, int jobs, const std::function<void(int)>& done);
 
-/// Returns the scenario with few samples, for one of many validations: enough for three per step of the replay.
+/// Returns the scenario with samples for one run among many: about three for each step of the replay.
 Scenario sampledForMany(Scenario scenario);
 
 /// Finds the smallest caught error of every parameter, to one in a hundred.

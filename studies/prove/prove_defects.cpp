@@ -118,7 +118,7 @@ std::vector<CheckProof> proofsOf(const std::vector<Check>& checks, const std::ve
 std::string engineOf(const std::string& check) {
   if (const EngineKind* further = furtherEngineOf(check)) return further->engine;
   const CheckRow* row = checkRow(check);
-  if (row != nullptr && row->stands_on == StandsOn::itself) return check;
+  if (row != nullptr && row->stands_on == StandsOn::no_engine) return check;
   return "Simbody";
 }
 

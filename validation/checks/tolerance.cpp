@@ -94,7 +94,7 @@ std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const s
   for (const Check& check : checks) {
     if (!isOfTorques(check) || check.reason == Reason::not_made) continue;
     if (check.verdict == Verdict::inconclusive && std::isnan(check.largest.value)) continue;  // nothing was compared
-    if (!(out.seen <= check.missed)) out.seen = check.missed;
+    if (!std::isnan(check.missed) && !(out.seen <= check.missed)) out.seen = check.missed;
     if (any && !(check.largest.value > out.largest) && !std::isnan(check.largest.value)) continue;
     out.largest = check.largest.value;
     out.t = check.largest.t;

@@ -25,8 +25,9 @@ std::vector<EngineSample> engineSamples(const Evidence& evidence) {
   return out;
 }
 
-/// Computes the subject's reactions if it has its own or an injected fault changes them; the right solver's are known.
-void lookAtReactions(Evidence& evidence) {
+/// Computes the subject's reactions if it has its own or an injected fault changes them. The reference has those of the
+/// right solver.
+void gatherReactions(Evidence& evidence) {
   const Scenario& scenario = *evidence.scenario;
   const bool own = evidence.subject->reactions && !evidence.right;
   if (own || evidence.fault.reactions) {
@@ -39,29 +40,28 @@ void lookAtReactions(Evidence& evidence) {
       };
     evidence.own_reactions = runReactions(scenario, subject, evidence.samples);
   } else {
-    evidence.reference->reactions();
+    evidence.reference->reactions();  // computes them now, within this stage's progress
   }
   evidence.has_reactions = true;
 }
 
-/// Whether the subject's torques are bitwise the right ones wherever they were asked for. A subject that foresees
-/// torques is not asked, because its answers are expensive.
-bool answersAs(const AskedTorques& asked, const Evidence& evidence) {
+/// Whether the subject gives the right replay's torques to the bit. A subject that foresees torques counts as
+/// different, because its answers are expensive.
+bool gaveRightTorques(const AskedTorques& asked, const Evidence& evidence) {
   return evidence.right || (!evidence.plan.foresee && asked.sameFrom(evidence.plan.torques));
 }
 
-/// Replays in the windows of the right torques, with their integration errors. Returns whether the first window's
-/// replay is the one of the right torques.
+/// Replays each window, or reuses the right torques' replay. Returns whether the first was reused.
 bool replayWindows(Evidence& evidence) {
   bool first_is_right = true;
   std::vector<WindowedReplay> windows = evidence.reference->replays().windows;
   for (WindowedReplay& window : windows) {
-    if (!evidence.fault.replay && answersAs(window.replay.asked, evidence)) continue;
+    if (!evidence.fault.replay && gaveRightTorques(window.replay.asked, evidence)) continue;
     if (&window == &windows.front()) first_is_right = false;
     ReplaySettings settings = settingsOf(*evidence.scenario, evidence.plan, window.window, 1);
     if (evidence.fault.replay) evidence.fault.replay(settings);
     window.replay = replay(*evidence.scenario, evidence.plan.torques, settings);
-    window.replay.tolerance = evidence.plan.tolerance;  // the assumed tolerance
+    window.replay.tolerance = evidence.plan.tolerance;  // which limits assume, also if a fault changed it
   }
   evidence.windows = std::move(windows);  // all or none
   return first_is_right;
@@ -73,7 +73,7 @@ void runReplays(bool ladder, Evidence& evidence) {
   const InjectedFault& fault = evidence.fault;
   const bool first_is_right = replayWindows(evidence);
   if (ladder) {
-    const bool climbed = first_is_right && !fault.ladder && answersAs(reference.ladder().asked, evidence);
+    const bool climbed = first_is_right && !fault.ladder && gaveRightTorques(reference.ladder().asked, evidence);
     evidence.ladder = climbed ? reference.ladder()
                               : replayLadder(scenario, evidence.plan.torques, evidence.windows.front(),
                                              rungSettings(evidence), reference.deadline);
@@ -84,8 +84,8 @@ void runReplays(bool ladder, Evidence& evidence) {
       evidence.samples, first_is_right && !fault.feedback ? &reference.stabilised() : nullptr, reference.deadline);
 }
 
-/// The shares of the work were measured with many samples.
-void lookAtSamples(const Experiments& experiments, Evidence& out) {
+/// Runs every experiment at the samples. Their shares of the work were measured with many samples.
+void gatherSamples(const Experiments& experiments, Evidence& out) {
   const auto tell = [&experiments](double share) {
     if (experiments.progress) experiments.progress(share);
   };
@@ -101,7 +101,7 @@ void lookAtSamples(const Experiments& experiments, Evidence& out) {
   out.complement = runComplement(*out.scenario->manipulator, *out.subject, out.samples);
   out.fast = runFast(*out.scenario, reference.natural.units, out.samples, out.fault.fast);
   tell(0.8);
-  if (experiments.reactions) lookAtReactions(out);
+  if (experiments.reactions) gatherReactions(out);
   tell(1);
 }
 
@@ -147,7 +147,7 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
   out.has.left_out_ladder = !experiments.ladder;
   out.has.left_out_reactions = !experiments.reactions;
   try {
-    lookAtSamples(experiments, out);
+    gatherSamples(experiments, out);
     planReplays(out);
     if (out.answered()) runReplays(experiments.ladder, out);
   } catch (const OutOfTime& over) {
@@ -190,7 +190,7 @@ double evaluationSeconds(const Scenario& scenario) {
 }  // namespace
 
 WorkParts workParts(const Scenario& scenario) {
-  constexpr double of_step = 150, of_interval = 10;  // all replays per step; growth per interval
+  constexpr double of_step = 150, of_interval = 10;  // evaluations: of all replays for a step, of growth
   const double duration = scenario.trajectory->duration(), samples = scenario.simulation.samples;
   const double over_time = of_step * plannedStepRate(duration) * duration + of_interval * linearisedIntervals(duration);
   WorkParts out;

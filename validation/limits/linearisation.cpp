@@ -12,12 +12,6 @@ using Vector12 = Eigen::Matrix<double, 12, 1>;
 
 namespace {
 
-/// Whether both are bitwise equal except for the time.
-bool sameBits(const Motion<double>& a, const Motion<double>& b) {
-  return a.p == b.p && a.Q == b.Q && a.p_dot == b.p_dot && a.omega == b.omega && a.p_ddot == b.p_ddot &&
-         a.omega_dot == b.omega_dot;
-}
-
 /// Returns a step between two scales: Coulomb friction varies over its smoothing speed, everything else over the
 /// machine's own speed.
 double stepFor(const Manipulator& machine) {
@@ -42,7 +36,7 @@ Linearisation::Linearisation(const Scenario& scenario)
 Linearisation::Matrix12 Linearisation::at(double t) const {
   const Motion<double> motion = trajectory_.at(t);
   const Vector6d load = loadAtP(load_.get(), motion);
-  if (!last_ || !sameBits(last_->motion, motion) || last_->load != load) last_ = {motion, load, differenced(motion)};
+  if (!last_ || !sameState(last_->motion, motion) || last_->load != load) last_ = {motion, load, differenced(motion)};
   return last_->J;
 }
 

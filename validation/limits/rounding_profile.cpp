@@ -19,9 +19,9 @@ constexpr unsigned frame_changes = 3;
 /// Number of instants on either side whose spread counts.
 constexpr std::size_t neighbours = 2;
 
-double spin(const Vector6d& v, double length) { return v.tail<3>().norm() + length * v.head<3>().norm(); }
+double twistSize(const Vector6d& v, double length) { return v.tail<3>().norm() + length * v.head<3>().norm(); }
 
-/// Compares ψ and θ, which are relative to the machine, and φ by the axis x that turns with it.
+/// The largest difference of ψ, θ and d. φ depends on the frame, so the axis x of the leg's plane is compared.
 double angleDistance(const Manipulator& machine, const JointVariables<double>& a, const JointVariables<double>& b,
                      const BodyMotions<double>& of_a, const BodyMotions<double>& of_b, double length) {
   double largest = 0;
@@ -51,7 +51,7 @@ double torqueDistance(const Vector6d& a, const Vector6d& b) {
   return (a - b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
 }
 
-void set(RoundingLevels& levels, Rounded quantity, double value) {
+void raise(RoundingLevels& levels, Rounded quantity, double value) {
   double& level = levels[static_cast<std::size_t>(quantity)];
   level = larger(level, value);
 }
@@ -65,15 +65,15 @@ void spreadOfMotions(const Manipulator& machine, const View& a, const View& b, d
         i < static_cast<std::size_t>(machine.legCount()) && rowOf(machine.leg(static_cast<int>(i)).kind).hasCarriage();
     const double turn = is_carriage ? 0 : length;
     const BodyMotion<double>&x = a.bodies[i], &y = b.bodies[i];
-    set(out, Rounded::positions, (x.c - y.c).norm() + turn * (x.R - y.R).norm());
-    set(out, Rounded::twists, spin(x.twist - y.twist, length));
-    set(out, Rounded::twist_rates, spin(x.twist_rate - y.twist_rate, length));
+    raise(out, Rounded::positions, (x.c - y.c).norm() + turn * (x.R - y.R).norm());
+    raise(out, Rounded::twists, twistSize(x.twist - y.twist, length));
+    raise(out, Rounded::twist_rates, twistSize(x.twist_rate - y.twist_rate, length));
   }
-  set(out, Rounded::angles, angleDistance(machine, a.joints.q, b.joints.q, a.bodies, b.bodies, length));
-  set(out, Rounded::rates, jointDistance(a.joints.q_dot, b.joints.q_dot, length));
-  set(out, Rounded::accelerations, jointDistance(a.joints.q_ddot, b.joints.q_ddot, length));
-  set(out, Rounded::reactions, reactionDistance(a.reactions, b.reactions, length));
-  set(out, Rounded::direct, spin(a.direct - b.direct, length));
+  raise(out, Rounded::angles, angleDistance(machine, a.joints.q, b.joints.q, a.bodies, b.bodies, length));
+  raise(out, Rounded::rates, jointDistance(a.joints.q_dot, b.joints.q_dot, length));
+  raise(out, Rounded::accelerations, jointDistance(a.joints.q_ddot, b.joints.q_ddot, length));
+  raise(out, Rounded::reactions, reactionDistance(a.reactions, b.reactions, length));
+  raise(out, Rounded::direct, twistSize(a.direct - b.direct, length));
 }
 
 /// Rates and accelerations of the driven coordinates.
@@ -81,10 +81,11 @@ struct DrivenMotion {
   Vector6d q_dot, q_ddot;
 };
 
-/// Spread in a single frame. `driven` is Simbody's; `effort` is T_PᵀM_P, which maps torques to platform accelerations.
+/// The spread of the NOC in one frame. `driven` is Simbody's; `to_efforts` is T_PᵀM_P: efforts per acceleration of the
+/// platform. An engine's level also contains the solver's spread.
 RoundingLevels spreadOfSolver(const Manipulator& machine, const std::vector<SolverView>& views,
-                              const DrivenMotion& driven, const Matrix6d& effort, double length) {
-  const Eigen::PartialPivLU<Matrix6d> moved(effort);
+                              const DrivenMotion& driven, const Matrix6d& to_efforts, double length) {
+  const Eigen::PartialPivLU<Matrix6d> to_efforts_lu(to_efforts);
   RoundingLevels out = uniformLevels(0);
   const auto size = [length](const Matrix6d& T) { return T.bottomRows<3>().norm() + length * T.topRows<3>().norm(); };
   for (std::size_t i = 0; i < views.size(); ++i)
@@ -92,40 +93,40 @@ RoundingLevels spreadOfSolver(const Manipulator& machine, const std::vector<Solv
       const SolverView &a = views[i], &b = views[j];
       spreadOfMotions(machine, a, b, length, out);
       const Matrix6d T = a.T - b.T, T_rate = a.T_rate - b.T_rate;
-      set(out, Rounded::shaping, size(T));
-      set(out, Rounded::shaping_rate, size(T_rate));
-      set(out, Rounded::jacobian, spin(T * driven.q_dot, length));
-      set(out, Rounded::jacobian_rate, spin(T * driven.q_ddot + T_rate * driven.q_dot, length));
+      raise(out, Rounded::shaping, size(T));
+      raise(out, Rounded::shaping_rate, size(T_rate));
+      raise(out, Rounded::jacobian, twistSize(T * driven.q_dot, length));
+      raise(out, Rounded::jacobian_rate, twistSize(T * driven.q_ddot + T_rate * driven.q_dot, length));
       const double torque = torqueDistance(a.torques, b.torques);
-      set(out, Rounded::effort, (a.torques - b.torques).norm());
-      set(out, Rounded::acceleration, spin(moved.solve(a.torques - b.torques), length));
-      set(out, Rounded::solver, torque);
-      set(out, Rounded::solver_direct, spin(a.direct - b.direct, length));
-      set(out, Rounded::torque, torque);
-      for (std::size_t k = 0; k < further_engine_count; ++k) set(out, ofFurtherEngine(k), torque);
+      raise(out, Rounded::effort, (a.torques - b.torques).norm());
+      raise(out, Rounded::acceleration, twistSize(to_efforts_lu.solve(a.torques - b.torques), length));
+      raise(out, Rounded::solver, torque);
+      raise(out, Rounded::solver_direct, twistSize(a.direct - b.direct, length));
+      raise(out, Rounded::torque, torque);
+      for (std::size_t k = 0; k < further_engine_count; ++k) raise(out, ofFurtherEngine(k), torque);
     }
   return out;
 }
 
-/// Spread over the changes of frame. `solver` is the unchanged NOC, `effort` is T_PᵀM_P.
+/// The engines' spread over changes of frame. `solver` is the NOC in the given one, `to_efforts` is T_PᵀM_P.
 RoundingLevels spreadOfEngines(const Manipulator& machine, const std::vector<EngineView>& views,
-                               const SolverView& solver, const Matrix6d& effort, double length) {
+                               const SolverView& solver, const Matrix6d& to_efforts, double length) {
   RoundingLevels out = uniformLevels(0);
-  const auto driven = [&machine](const JointVariables<double>& q) { return q.driven(machine.motors()); };
+  const Motors motors = machine.motors();
   for (std::size_t i = 0; i < views.size(); ++i) {
-    set(out, Rounded::gaps, views[i].gap_acceleration);
+    raise(out, Rounded::gaps, views[i].gap_acceleration);
     for (std::size_t j = 0; j < i; ++j) {
       const EngineView &a = views[i], &b = views[j];
       spreadOfMotions(machine, a, b, length, out);
-      const Vector6d q_dot = driven(a.joints.q_dot) - driven(b.joints.q_dot);
-      const Vector6d q_ddot = driven(a.joints.q_ddot) - driven(b.joints.q_ddot);
-      set(out, Rounded::jacobian, spin(solver.T * q_dot, length));
-      set(out, Rounded::jacobian_rate, spin(solver.T * q_ddot + solver.T_rate * q_dot, length));
-      set(out, Rounded::torque, torqueDistance(a.torques, b.torques));
+      const Vector6d q_dot = a.joints.q_dot.driven(motors) - b.joints.q_dot.driven(motors);
+      const Vector6d q_ddot = a.joints.q_ddot.driven(motors) - b.joints.q_ddot.driven(motors);
+      raise(out, Rounded::jacobian, twistSize(solver.T * q_dot, length));
+      raise(out, Rounded::jacobian_rate, twistSize(solver.T * q_ddot + solver.T_rate * q_dot, length));
+      raise(out, Rounded::torque, torqueDistance(a.torques, b.torques));
       for (std::size_t k = 0; k < further_engine_count; ++k)
-        if (a.further[k] && b.further[k]) set(out, ofFurtherEngine(k), torqueDistance(*a.further[k], *b.further[k]));
-      set(out, Rounded::acceleration, spin(a.acceleration - b.acceleration, length));
-      set(out, Rounded::effort, (effort * (a.acceleration - b.acceleration)).norm());
+        if (a.further[k] && b.further[k]) raise(out, ofFurtherEngine(k), torqueDistance(*a.further[k], *b.further[k]));
+      raise(out, Rounded::acceleration, twistSize(a.acceleration - b.acceleration, length));
+      raise(out, Rounded::effort, (to_efforts * (a.acceleration - b.acceleration)).norm());
     }
   }
   return out;
@@ -139,16 +140,12 @@ void divideByShape(const Conditioning& at, RoundingLevels& spread) {
   }
 }
 
-/// The floor in units of the shape; `even` is the same machine without condition numbers.
-double floorOf(const Conditioning& at, const Conditioning& even, Rounded quantity) {
+/// The least level: rounding_floor, or less where condition numbers alone would exceed floor_share. `well_conditioned`
+/// is the same machine without condition numbers.
+double floorOf(const Conditioning& at, const Conditioning& well_conditioned, Rounded quantity) {
   const double share = floor_share / std::numeric_limits<double>::epsilon();
   const double shape = at.shape(quantity);
-  return shape > 0 ? std::min(rounding_floor, share * even.shape(quantity) / shape) : rounding_floor;
-}
-
-bool areSame(const Motion<double>& a, const Motion<double>& b) {
-  return a.p == b.p && a.Q == b.Q && a.omega == b.omega && a.p_dot == b.p_dot && a.omega_dot == b.omega_dot &&
-         a.p_ddot == b.p_ddot;
+  return shape > 0 ? std::min(rounding_floor, share * well_conditioned.shape(quantity) / shape) : rounding_floor;
 }
 
 /// Moves P by a billionth of `length`, differently for each k: nearly the same pose with other roundings.
@@ -186,15 +183,15 @@ struct RoundingProfile::Workspace {
 
 RoundingProfile::RoundingProfile(const Scenario& scenario, int instants, const Deadline& deadline)
     : workspace_(std::make_unique<Workspace>(scenario)) {
-  Motion<double> first_of_held;
+  Motion<double> last_distinct;
   for (int k = 0; k < instants; ++k) {
     deadline.require();
     const double t = instants > 1 ? scenario.trajectory->duration() * k / (instants - 1) : 0;
     Motion<double> motion = scenario.trajectory->at(t);
-    if (k > 0 && areSame(motion, first_of_held))
+    if (k > 0 && sameState(motion, last_distinct))
       nudge(motion, k, workspace_->noc.machine().length);  // without this a held pose would repeat one measurement
     else
-      first_of_held = motion;
+      last_distinct = motion;
     measured_.push_back(measure(motion, nullptr));
   }
 }
@@ -212,18 +209,20 @@ RoundingProfile::Measured RoundingProfile::measure(const Motion<double>& motion,
   std::vector<EngineView> engines;
   for (EngineFrameChange& each : w.engines) engines.push_back(each.at(motion, commanded, others));
   w.noc.displacements(motion, w.work);
-  const Matrix6d effort = solver.front().T.transpose() * w.noc.massMatrixAtP(motion, w.work);
+  const Matrix6d to_efforts = solver.front().T.transpose() * w.noc.massMatrixAtP(motion, w.work);
   const JointMotion& simbody = engines.front().joints;
-  const auto driven = [&w](const JointVariables<double>& q) { return q.driven(w.machine.motors()); };
-  here.spread =
-      spreadOfSolver(w.machine, solver, {driven(simbody.q_dot), driven(simbody.q_ddot)}, effort, conditioning.length);
-  const RoundingLevels of_engines = spreadOfEngines(w.machine, engines, solver.front(), effort, conditioning.length);
+  const Motors motors = w.machine.motors();
+  const DrivenMotion driven = {simbody.q_dot.driven(motors), simbody.q_ddot.driven(motors)};
+  here.spread = spreadOfSolver(w.machine, solver, driven, to_efforts, conditioning.length);
+  const RoundingLevels of_engines =
+      spreadOfEngines(w.machine, engines, solver.front(), to_efforts, conditioning.length);
+  // A limit covers the difference of both sides, so their spreads add.
   for (std::size_t q = 0; q < rounded_count; ++q) here.spread[q] += of_engines[q];
   divideByShape(conditioning, here.spread);
   return here;
 }
 
-Conditioning RoundingProfile::leveled(const Motion<double>& motion, const Measured* itself) const {
+Conditioning RoundingProfile::withLevels(const Motion<double>& motion, const Measured* measured_here) const {
   Conditioning out;
   {
     const std::lock_guard<std::mutex> lock(workspace_->guard);
@@ -234,21 +233,21 @@ Conditioning RoundingProfile::leveled(const Motion<double>& motion, const Measur
   const auto i = static_cast<std::size_t>(after - measured_.begin());
   const std::size_t first = i > neighbours ? i - neighbours : 0;
   const std::size_t last = std::min(i + neighbours, measured_.size() - 1);
-  out.levels = itself != nullptr ? itself->spread : uniformLevels(0);
+  RoundingLevels spread = measured_here != nullptr ? measured_here->spread : uniformLevels(0);
   for (std::size_t k = std::min(first, last); k <= last; ++k)
-    for (std::size_t q = 0; q < rounded_count; ++q) out.levels[q] = larger(out.levels[q], measured_[k].spread[q]);
-  Conditioning even = out;
-  even.kappa_B = even.kappa_legs = 1;
+    for (std::size_t q = 0; q < rounded_count; ++q) spread[q] = larger(spread[q], measured_[k].spread[q]);
+  Conditioning well_conditioned = out;
+  well_conditioned.kappa_B = well_conditioned.kappa_legs = 1;
   for (std::size_t q = 0; q < rounded_count; ++q)
-    out.levels[q] = floorOf(out, even, static_cast<Rounded>(q)) + rounding_safety * out.levels[q];
+    out.levels[q] = floorOf(out, well_conditioned, static_cast<Rounded>(q)) + rounding_safety * spread[q];
   return out;
 }
 
-Conditioning RoundingProfile::at(const Motion<double>& motion) const { return leveled(motion, nullptr); }
+Conditioning RoundingProfile::at(const Motion<double>& motion) const { return withLevels(motion, nullptr); }
 
 Conditioning RoundingProfile::closer(const Motion<double>& motion, const Vector6d* torques) const {
   const Measured here = measure(motion, torques);
-  return leveled(motion, &here);
+  return withLevels(motion, &here);
 }
 
 double RemeasuredLimits::limit(double error, const Conditioning& at, Rounded quantity, const Motion<double>& motion,

@@ -14,7 +14,7 @@ namespace ursula {
 /// A model error is the same in every change of frame, so it does not enter; neither does the subject.
 ///
 /// Some instants are measured, in units of the derived shape, which extends the level to the instants between. A level
-/// is safety × the largest spread at the five nearest instants, but at least a floor.
+/// is a floor plus safety × the largest spread at the five nearest instants.
 class RoundingProfile {
  public:
   /// Measures at `instants` equally spaced instants of the motion. Throws PoseError like the solver.
@@ -23,9 +23,7 @@ class RoundingProfile {
 
   /// The conditioning at an instant of the motion, with measured levels.
   Conditioning at(const Motion<double>& motion) const;
-  /// The same, but measured also at the instant itself, with the direct dynamics under `torques` if given. The
-  /// unavoidable difference of two formulations is at most their spread plus their least difference in any change of
-  /// frame. A larger one is not rounding, because no change of frame removes it.
+  /// The same with the instant itself measured; direct dynamics then has `torques`, if given.
   Conditioning closer(const Motion<double>& motion, const Vector6d* torques = nullptr) const;
 
   /// The measured spread of `quantity` at each measured instant, in units of its shape.
@@ -37,15 +35,14 @@ class RoundingProfile {
     RoundingLevels spread = uniformLevels(0);
   };
   Measured measure(const Motion<double>& motion, const Vector6d* torques) const;
-  Conditioning leveled(const Motion<double>& motion, const Measured* itself) const;
+  Conditioning withLevels(const Motion<double>& motion, const Measured* measured_here) const;
 
   struct Workspace;
   std::unique_ptr<Workspace> workspace_;  ///< scratch, for one thread at a time
   std::vector<Measured> measured_;
 };
 
-/// Limits that are measured again for values beyond them. Once a value stays beyond its limit, no more are measured,
-/// because the check has failed.
+/// Measures a limit again if a value exceeds it. It stops after the first confirmed excess: the check has failed.
 class RemeasuredLimits {
  public:
   explicit RemeasuredLimits(const RoundingProfile& profile) : profile_(profile) {}

@@ -25,7 +25,7 @@ template class SampledLimit<PointwiseSample>;
 
 namespace {
 
-/// The largest relative change of a derivative when the state changes by its rounding, at one instant, 1/s.
+/// The largest change of ẋ, in natural units, when each state changes by one rounding.
 double derivativeNoise(SimbodyLoop& loop, const Motion<double>& motion, const Vector6d& torques) {
   loop.place(motion);
   const std::vector<double> x = loop.state();
@@ -53,15 +53,15 @@ double reachableTolerance(const Scenario& scenario, double step_rate, bool stiff
     const Motion<double> motion = scenario.trajectory->at(scenario.trajectory->duration() * (k + 0.5) / instants);
     noise = std::max(noise, derivativeNoise(loop, motion, right.torques(motion)));
   }
-  constexpr double in_error_of_pair = 0.1;
+  constexpr double in_error_of_pair = 0.1;  // √4 · 41/840: four stages of Fehlberg's estimate round independently
   const double in_error = stiff ? RadauStep::noiseInError() : in_error_of_pair;
   return std::max(scenario.simulation.tolerance, in_error * noise / step_rate);
 }
 
 double plannedStepRate(double duration) { return 128 / std::min(duration, 8.0); }
 
-/// Fehlberg's pair is stable up to about five decays per step. Its 13 evaluations compare with some 100 of an implicit
-/// step of the motion's own length.
+/// Fehlberg's pair is stable up to about five decays per step; from eight in a planned step, stability alone sets its
+/// steps.
 bool isStiff(const Amplification& amplification, double duration) {
   return amplification.decayRate() > 8 * plannedStepRate(duration);
 }
@@ -112,7 +112,7 @@ template LoopForces loopForces(const std::vector<Conditions>&);
 template LoopForces loopForces(const std::vector<PointwiseSample>&);
 
 int linearisedIntervals(double duration) {
-  constexpr double least = 300, most = 300'000;  // each takes a kilobyte
+  constexpr double least = 300, most = 300'000;  // an interval takes a kilobyte
   return static_cast<int>(std::clamp(std::ceil(40 * duration), least, most));
 }
 
@@ -120,8 +120,17 @@ Amplification linearised(const Scenario& scenario, const Deadline& deadline) {
   return Amplification(scenario, linearisedIntervals(scenario.trajectory->duration()), deadline);
 }
 
+namespace {
+
+/// The expected error of the steps, m/s.
+double plannedErrorRate(const ReplayPlan& plan) {
+  return plan.step_rate * errorPerStep(plan.tolerance, plan.position_scale);
+}
+
+}  // namespace
+
 std::vector<GrowthWindow> planWindows(const Amplification& amplification, const ReplayPlan& plan) {
-  const double rate = plan.step_rate * errorPerStep(plan.tolerance, plan.position_scale);
+  const double rate = plannedErrorRate(plan);
   // Plans for a quarter of the useful limit, because the actual number of steps may exceed the planned one.
   const double planned = useful_replay_limit / 4 * amplification.length();
   std::vector<GrowthWindow> windows;
@@ -131,15 +140,14 @@ std::vector<GrowthWindow> planWindows(const Amplification& amplification, const 
 }
 
 double plannedBound(const ReplayPlan& plan, const GrowthWindow& window) {
-  const double per_step = errorPerStep(plan.tolerance, plan.position_scale);
-  return window.bound(window.end(), plan.step_rate * per_step, 0);
+  return window.bound(window.end(), plannedErrorRate(plan), 0);
 }
 
 ReplaySettings settingsOf(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
-                          double of_tolerance) {
+                          double tolerance_factor) {
   ReplaySettings settings;
   settings.integrator = scenario.simulation.integrator;
-  settings.tolerance = of_tolerance * plan.tolerance;
+  settings.tolerance = tolerance_factor * plan.tolerance;
   settings.stiff = plan.stiff;
   settings.start = window.start();
   settings.end = window.end();
@@ -173,10 +181,9 @@ constexpr unsigned frames_of_replay = 3;
 Replay replayedElsewhere(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window, unsigned seed) {
   FrameChange there = randomFrameChange(seed, window.length, *scenario.manipulator);
   there.units = {};
-  ReplayPlan transformed = plan;
-  transformed.torques = [&](double t) { return there.of(plan.torques(t)); };
   const Scenario seen = there.of(scenario);
-  Replay out = replay(seen, transformed.torques, settingsOf(seen, transformed, window, 1));
+  Replay out = replay(
+      seen, [&](double t) { return there.of(plan.torques(t)); }, settingsOf(seen, plan, window, 1));
   for (ReplayStep& step : out.steps)
     for (Vector3d ReplayStep::*part : {&ReplayStep::position_error, &ReplayStep::rotation_error,
                                        &ReplayStep::velocity_error, &ReplayStep::spin_error})
@@ -184,7 +191,7 @@ Replay replayedElsewhere(const Scenario& scenario, const ReplayPlan& plan, const
   return out;
 }
 
-/// Replays with halved steps. If no step was rejected, the difference from `here` is the error of the steps.
+/// Replays with halved steps. The difference from `here` is the steps' error, if none was rejected.
 Replay replayedByHalves(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
                         const Replay& here) {
   ReplaySettings settings = settingsOf(scenario, plan, window, 1);
@@ -215,9 +222,8 @@ IntegrationError closerLook(const Scenario& scenario, const ReplayPlan& plan, co
 
 namespace {
 
-/// The largest number of steps per second in windows that were too long for a verdict and can be shortened; 0 if there
-/// is none.
-double stepRateOfTooLong(const std::vector<WindowedReplay>& replays, const ReplayPlan& plan, double length) {
+/// The largest step rate of undecided windows that can be shortened, 1/s; 0 without one.
+double stepRateOfUndecided(const std::vector<WindowedReplay>& replays, const ReplayPlan& plan, double length) {
   double rate = 0;
   for (const WindowedReplay& each : replays) {
     const GrowthWindow& window = each.window;
@@ -234,7 +240,7 @@ double stepRateOfTooLong(const std::vector<WindowedReplay>& replays, const Repla
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Amplification& amplification,
                                             const ReplayPlan& plan) {
   std::vector<WindowedReplay> replays = replayInWindows(scenario, plan, planWindows(amplification, plan));
-  const double taken = stepRateOfTooLong(replays, plan, amplification.length());
+  const double taken = stepRateOfUndecided(replays, plan, amplification.length());
   if (!(taken > plan.step_rate)) return replays;
   ReplayPlan shorter = plan;
   shorter.step_rate = taken;

@@ -35,9 +35,9 @@ std::vector<GrowthWindow> planWindows(const Amplification& amplification, const 
 /// The bound at the end of `window`, m, that planWindows compared with the useful limit.
 double plannedBound(const ReplayPlan& plan, const GrowthWindow& window);
 
-/// The settings for a replay of `window` at `of_tolerance` times the plan's tolerance.
+/// The settings for a replay of `window` at `tolerance_factor` times the plan's tolerance.
 ReplaySettings settingsOf(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
-                          double of_tolerance);
+                          double tolerance_factor);
 
 /// Returns one replay per window.
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan,
@@ -48,8 +48,8 @@ std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Repl
 void measureIntegration(const Scenario& scenario, const ReplayPlan& plan, std::vector<WindowedReplay>& windows);
 constexpr double coarser = 100;
 
-/// The effect of steps and rounding on a replay of `window` under the plan's torques. It compares `here` with replays
-/// at halved steps, and in turned and shifted frames with other labels.
+/// The effect of steps and rounding on a replay of `window` under the plan's torques: the largest change of `here` at
+/// halved steps and in three other frames with other labels.
 IntegrationError closerLook(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
                             const Replay& here);
 
@@ -59,10 +59,9 @@ std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Ampl
                                             const ReplayPlan& plan);
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan);
 
-/// The scenario's tolerance, or a larger one if the loop's derivatives are too noisy. The error estimate of Fehlberg's
-/// pair adds their rounding with 41/840 at four stages. So no step of the planned length is accepted below a tenth of
-/// it. RadauStep's estimate, for a `stiff` replay, is more sensitive (noiseInError). If bodies of very different mass
-/// are connected, this is far above eps.
+/// The scenario's tolerance, or a larger one if the loop's derivatives are too noisy. Four stages round in Fehlberg's
+/// error estimate, each with 41/840: together a tenth of the noise. RadauStep's estimate, for a `stiff` replay, is more
+/// sensitive (noiseInError). If bodies of very different mass are connected, this is far above eps.
 double reachableTolerance(const Scenario& scenario, double step_rate, bool stiff = false);
 
 /// Returns the expected steps per second under smooth torques; the verdict uses the actual number.
@@ -71,8 +70,8 @@ double plannedStepRate(double duration);
 /// Whether friction shortens an explicit integrator's steps so much that implicit steps cost less.
 bool isStiff(const Amplification& amplification, double duration);
 
-/// The limit of evaluations. Wrong torques may destabilise the machine, but four times the need of right ones, at 13
-/// evaluations per step, is enough.
+/// The limit of evaluations: four times what right torques need, at 13 a step. Wrong torques may destabilise the
+/// machine.
 long enoughEvaluations(const Scenario& scenario, double step_rate);
 
 /// Rounding of the platform's acceleration along the motion, m/s²: the larger of the two samples beside t. Keeps a
@@ -87,7 +86,7 @@ class SampledLimit {
   const std::vector<Sample>& samples_;
 };
 
-/// Computes it for each window from the conditioning of its samples.
+/// Sets each window's opening: the gap that rounding of the accelerations may cause by its end.
 template <class Sample>
 void measureOpening(const std::vector<Sample>& samples, std::vector<WindowedReplay>& windows);
 

@@ -36,10 +36,10 @@ struct NamedCause {
   std::string term = {};       ///< "gravity", "gyroscopic", "angular_velocity", …
   std::string body = {};       ///< "platform", "proximal", "distal", "legs" or "all"
   std::string parameter = {};  ///< "manipulator.leg.4.distal.mass"
-  std::string unit = {};       ///< unit of the three numbers
+  std::string unit = {};       ///< of expected, found and uncertainty
   std::optional<double> expected = {}, found = {}, uncertainty = {};
-  int leg = 0, motor = 0;                                       ///< 1-based; 0 for none
-  std::vector<int> legs = {};                                   ///< the leg whose efforts each column contains, 1-based
+  int leg = 0, motor = 0;      ///< 1-based; 0 for none
+  std::vector<int> legs = {};  ///< of order: each column's leg; else the motors or legs concerned; 1-based
   std::optional<double> from_s = {}, to_s = {};                 ///< the interval in which the efforts are wrong
   double explained = std::numeric_limits<double>::quiet_NaN();  ///< share of the deviation's square; NaN: unknown
 };
@@ -62,7 +62,7 @@ struct Scenario;
 struct JudgedValue;
 struct WorstShare;
 
-/// Only checks can be `not_applicable`: they need something missing and count neither as passed nor as failed.
+/// A check that lacks what it needs is `not_applicable`; it neither passes nor fails.
 enum class Verdict { pass, fail, inconclusive, not_applicable };
 
 /// "pass", "fail", "inconclusive" or "not_applicable".
@@ -95,8 +95,8 @@ enum class LimitBy { derived, user };
 /// "derived" or "user".
 const char* name(LimitBy limit_by);
 
-/// One judged statement: accepted exactly if `value <= limit`, so NaN never passes. Value and limit are those with the
-/// largest share; a user's limit applies to `largest`.
+/// One judged statement. It passes exactly if value and limit are finite and `value <= limit`, so NaN never passes.
+/// Both are of the instant nearest to its limit. A user's limit applies to `largest`.
 struct Check {
   std::string name;  ///< `group.what`, e.g. "torque.pointwise"
   double value = 0;
@@ -137,8 +137,8 @@ struct CheckedQuantity {
   double useful() const { return useful_share * size + given; }
 };
 
-/// Judges by WorstShare::shown: pass, fail, or inconclusive with `cause` if the value lies between the useful threshold
-/// and a wider derived limit. It notes if a limit exceeds the useful threshold.
+/// Judges by WorstShare::shown. A value above the useful threshold and within its derived limit is inconclusive, with
+/// `cause`. It notes if a limit exceeds the useful threshold.
 Check judgedIfUseful(const CheckedQuantity& quantity, const WorstShare& worst, std::string basis, std::string why,
                      const std::string& cause);
 
@@ -213,7 +213,7 @@ std::string textOf(const Finding& finding);
 struct ValidationResult {
   std::string scenario;
   std::string formulation;            ///< the subject's: "noc", "fast", or "external"
-  LimitBy limits = LimitBy::derived;  ///< user: a user's limit, wider than the derived one, decided
+  LimitBy limits = LimitBy::derived;  ///< user if a user's limit, wider than the derived one, decided a check
   Verdict verdict = Verdict::fail;
   std::vector<Check> checks;
   std::vector<std::pair<std::string, std::string>> provenance;

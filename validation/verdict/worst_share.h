@@ -25,9 +25,6 @@ struct NearestToLimit {
   }
 };
 
-/// The larger of two; NaN wins.
-inline double larger(double a, double b) { return std::isnan(a) || a > b ? a : b; }
-
 /// The value that a check shows out of many.
 struct JudgedValue {
   double value = 0, limit = 0, t = 0;

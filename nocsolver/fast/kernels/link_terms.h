@@ -1,26 +1,5 @@
 #pragma once
 
-// Mass matrices moved to P. Internal.
-
-#include "base/scalar.h"
-#include "nocsolver/fast/kernels/plane_leg.h"
-
-namespace ursula::kernel {
-
-/// Adds a mass matrix at Bᵢ, in B, to one at P: Gᵀ M G with G = [−[Qb]×, 1].
-template <class S>
-void addAtP(const Matrix3<S>& M_B, const Vector3<S>& Qb, Matrix6<S>& M_P) {
-  Matrix3<S> arm;
-  arm << S(0), -Qb.z(), Qb.y(), Qb.z(), S(0), -Qb.x(), -Qb.y(), Qb.x(), S(0);
-  const Matrix3<S> arm_M = arm * M_B;
-  M_P.template topLeftCorner<3, 3>() -= arm_M * arm;
-  M_P.template topRightCorner<3, 3>() += arm_M;
-  M_P.template bottomLeftCorner<3, 3>() += arm_M.transpose();
-  M_P.template bottomRightCorner<3, 3>() += M_B;
-}
-
-}  // namespace ursula::kernel
-
 // A link whose axis lies in a plane that turns about −u: both links of URS and UPS, the rod of PUS and RUS. Internal.
 //
 // Axes are x, y = u, z of the plane F, with r = [0, C, S] along the link. The plane turns by α, the link by χ about x
@@ -33,6 +12,9 @@ void addAtP(const Matrix3<S>& M_B, const Vector3<S>& Qb, Matrix6<S>& M_P) {
 //
 // With I about any point of the link's axis, the products about x and the plane's axis are
 //   P = I_xy S + I_xz C,  J = I_yy S² + 2 I_yz S C + I_zz C²                                                     (e)
+
+#include "base/scalar.h"
+#include "nocsolver/fast/kernels/plane_leg.h"
 
 namespace ursula::kernel {
 
