@@ -72,8 +72,6 @@ Scales scalesOf(const Poses& poses) {
   return out;
 }
 
-double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }  // a NaN is kept
-
 void requireAll(const std::vector<Vector6d>& answers, const Poses& poses) {
   if (answers.size() != poses.motions.size()) throw std::invalid_argument("an answer for each pose is needed");
 }

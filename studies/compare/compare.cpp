@@ -12,6 +12,7 @@
 #include <unordered_map>
 
 #include "base/csv.h"
+#include "base/scalar.h"
 #include "base/text.h"
 #include "studies/compare/history_line.h"
 #include "studies/compare/rotations.h"
@@ -71,8 +72,6 @@ std::map<std::string, double> scalesOf(const TimeSeries& series) {
       scales[work_group] = std::max(scales[work_group], scales[effort] * scales[driven]);
   return scales;
 }
-
-double larger(double a, double b) { return std::isnan(a) || std::isnan(b) ? nan : std::max(a, b); }
 
 /// Computes errors at the test's instants `rows`, and the distance from the tube.
 void judgeRows(const HistoryLine& reference, const std::vector<double>& t, const std::vector<double>& values,
