@@ -136,8 +136,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   tell(options, work, done, "sources of the error");
   std::optional<ErrorBudget> budget;
   if (options.budget && evidence.amplification != nullptr)
-    budget =
-        attributeInTime(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan);
+    budget = attribute(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan);
   reference.stop();  // the rest is short and turns the finished part into a result
   judgeEveryAnswer(evidence, result.checks);
   addFacts(budget, evidence, result);

@@ -100,7 +100,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   result.formulation = name(Formulation::external);
   result.checks = judgeAll(evidence);
   const ErrorBudget budget =
-      attributeInTime(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan);
+      attribute(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan);
   deadline.remove();  // the rest is short and turns the finished part into a result
   addFacts(evidence, budget, result);
   seriesInSi(natural, result);

@@ -29,10 +29,6 @@ const WindowedReplay* worstWindow(const std::vector<WindowedReplay>& windows) {
   return worst;
 }
 
-Vector3d endOf(const Replay& replay) {
-  return replay.steps.empty() ? Vector3d::Constant(std::nan("")) : replay.steps.back().position_error;
-}
-
 /// Number of plotted instants in a window.
 constexpr int drawn = 60;
 
@@ -43,24 +39,21 @@ std::vector<double> drawnInstants(const WindowedReplay& window) {
   return out;
 }
 
-/// Errors of P at the end of a replay and at the plotted instants; in m and B.
-struct Track {
-  Vector3d end;
-  std::vector<Vector3d> along;
+/// Errors of P at the plotted instants, and at last at a replay's own end; in m and B.
+using Track = std::vector<Vector3d>;
 
-  Track(const Replay& replay, const std::vector<double>& instants, const FrameChange& from = {}) {
-    const auto back = [&from](const Vector3d& error) -> Vector3d {
-      return from.turn.transpose() * error * from.units.length;
-    };
-    end = back(endOf(replay));
-    for (const double t : instants) {
-      const double there = t / from.units.time;
-      const bool reached = !replay.steps.empty() && there <= replay.steps.back().t * (1 + 1e-12);
-      along.push_back(reached ? back(interpolated(replay, there).position_error)
-                              : Vector3d::Constant(std::nan("")).eval());
-    }
+Track trackOf(const Replay& replay, const std::vector<double>& instants, const FrameChange& from = {}) {
+  const Vector3d none = Vector3d::Constant(std::nan(""));
+  Track out;
+  for (const double t : instants) {
+    const double there = t / from.units.time;
+    const bool reached = !replay.steps.empty() && there <= replay.steps.back().t * (1 + 1e-12);
+    out.push_back(reached ? interpolated(replay, there).position_error : none);
   }
-};
+  out.push_back(replay.steps.empty() ? none : replay.steps.back().position_error);
+  for (Vector3d& error : out) error = from.turn.transpose() * Vector3d(error) * from.units.length;
+  return out;
+}
 
 /// The window's replay in `frame_change`, with the gaps projected away.
 Track projected(const Scenario& scenario, const ReplayPlan& plan, const WindowedReplay& window,
@@ -81,7 +74,7 @@ Track projected(const Scenario& scenario, const ReplayPlan& plan, const Windowed
       for (double& t : instants) t *= units.time;
       plan.foresee(instants);
     };
-  return Track(replay(there, torques, settings), drawnInstants(window), frame_change);
+  return trackOf(replay(there, torques, settings), drawnInstants(window), frame_change);
 }
 
 /// The torques' errors at the samples as accelerations of the platform, [p̈; L ω̇], linear between the samples.
@@ -110,13 +103,10 @@ class Residual {
 
 void addModel(const std::vector<PointwiseSample>& samples, const WindowedReplay& window,
               const Amplification& amplification, ErrorBudget& budget) {
-  const Residual residual(samples);
-  const double end = window.replay.steps.back().t;
   const double length = amplification.length();
-  budget.model.error = amplification.carried(window.window.start(), end, residual).head<3>();
   // The rounding of each residual in the worst direction, and the effects that are nonlinear in the error.
   budget.model_rounding = amplification.carriedBound(
-      window.window.start(), end, [&samples](double t) { return SampledLimit(samples)(t) / rounding_safety; });
+      window.window.start(), budget.t, [&samples](double t) { return SampledLimit(samples)(t) / rounding_safety; });
   const double size = budget.model.error.norm();
   budget.model.uncertainty = budget.model_rounding + size * std::min(1.0, 100 * size / length);
 }
@@ -132,46 +122,97 @@ Track coarse(const Scenario& scenario, const ReplayPlan& plan, const WindowedRep
   ReplaySettings settings = settingsOf(scenario, plan, window.window, coarser);
   settings.end = window.replay.steps.back().t;
   settings.project = true;
-  return Track(replay(scenario, plan.torques, settings), drawnInstants(window));
+  return trackOf(replay(scenario, plan.torques, settings), drawnInstants(window));
 }
 
 /// The replays behind the contributions: the judged one, the projected ones (as judged, then in other changes of
 /// frame), and one with a coarser tolerance.
 struct Tracks {
-  Track judged, plain;
-  std::vector<Track> turned;
+  Track judged;
+  std::vector<Track> projected;
   Track coarse;
+
+  /// Over the other changes of frame.
+  Vector3d mean(std::size_t k) const {
+    Vector3d out = Vector3d::Zero();
+    for (std::size_t i = 1; i < projected.size(); ++i) out += projected[i][k] / frame_changes;
+    return out;
+  }
+
+  /// The contributions at entry k, where the residuals carry `model`.
+  ErrorBudget at(std::size_t k, const Vector3d& model) const {
+    const Vector3d &plain = projected.front()[k], middle = mean(k);
+    double spread = 0;
+    for (const Track& each : projected) spread = std::max(spread, (each[k] - middle).norm());
+    ErrorBudget out;
+    out.observed = judged[k];
+    out.model.error = model;
+    out.integration = integrationShare(plain, coarse[k]);
+    out.rounding = {plain - middle, spread};  // the uncertainty covers the mean and the judged replay relative to it
+    out.closure = {judged[k] - plain, spread};
+    return out;
+  }
 };
 
-std::vector<ErrorsAt> sharesAlong(const Tracks& tracks, const std::vector<PointwiseSample>& samples,
-                                  const WindowedReplay& window, const Amplification& amplification) {
-  const std::vector<double> instants = drawnInstants(window);
-  const Residual residual(samples);
-  const double scale = positionScale(samples);
-  std::vector<ErrorsAt> out;
+std::string dominantOf(const ErrorBudget& budget) {
+  // If torques are right to rounding, their residuals are rounding too, and no model error.
+  const double model = budget.model.error.norm();
+  const std::pair<const char*, double> shares[] = {{"model", model > budget.model_rounding ? model : 0},
+                                                   {"integration", budget.integration.error.norm()},
+                                                   {"rounding", budget.rounding.error.norm()},
+                                                   {"closure", budget.closure.error.norm()},
+                                                   {"unexplained", budget.unexplained().norm()}};
+  return std::max_element(std::begin(shares), std::end(shares),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+/// `at(k, t)` gives the contributions at entry k.
+template <class F>
+TimeSeries curveOf(const Tracks& tracks, const std::vector<double>& instants, F&& at, const WindowedReplay& window,
+                   double scale) {
+  TimeSeries out;
+  out.names = {"t_s",         "observed (m)",    "rounding (m)", "integration (m)", "loop closure (m)",
+               "torques (m)", "unexplained (m)", "limit (m)"};
+  out.columns.resize(out.names.size());
   for (std::size_t k = 0; k < instants.size(); ++k) {
-    const Vector3d observed = tracks.judged.along[k], plain = tracks.plain.along[k];
-    Vector3d mean = Vector3d::Zero();
-    for (const Track& each : tracks.turned) mean += each.along[k] / frame_changes;
-    const Vector3d integration = integrationShare(plain, tracks.coarse.along[k]).error;
-    const Vector3d model = amplification.carried(window.window.start(), instants[k], residual).head<3>();
-    out.push_back({instants[k], observed.norm(), (plain - mean).norm(), integration.norm(), (observed - plain).norm(),
-                   model.norm(), (mean - integration - model).norm(), replayLimit(window, scale, instants[k])});
+    const ErrorBudget there = at(k, instants[k]);
+    const Vector3d sizes[] = {there.observed,          there.rounding.error,
+                              there.integration.error, there.closure.error,
+                              there.model.error,       tracks.mean(k) - there.integration.error - there.model.error};
+    out.columns.front().push_back(there.t);
+    for (std::size_t i = 0; i < std::size(sizes); ++i) out.columns[1 + i].push_back(sizes[i].norm());
+    out.columns.back().push_back(replayLimit(window, scale, there.t));
   }
   return out;
 }
 
-ErrorSource dominantOf(const ErrorBudget& budget) {
-  // If torques are right to rounding, their residuals are rounding too, and no model error.
-  const double model = budget.model.error.norm();
-  const std::pair<ErrorSource, double> shares[] = {{ErrorSource::model, model > budget.model_rounding ? model : 0},
-                                                   {ErrorSource::integration, budget.integration.error.norm()},
-                                                   {ErrorSource::rounding, budget.rounding.error.norm()},
-                                                   {ErrorSource::closure, budget.closure.error.norm()},
-                                                   {ErrorSource::unexplained, budget.unexplained().norm()}};
-  return std::max_element(std::begin(shares), std::end(shares),
-                          [](const auto& a, const auto& b) { return a.second < b.second; })
-      ->first;
+ErrorBudget attributed(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
+                       const WindowedReplay& window, const Amplification& amplification, const ReplayPlan& plan) {
+  std::vector<FrameChange> from = {FrameChange(*scenario.manipulator)};
+  for (unsigned k = 0; k < frame_changes; ++k)
+    from.push_back(randomFrameChange(k + 101, amplification.length(), *scenario.manipulator));
+  std::mutex asking;
+  std::vector<Track> seen(from.size());
+  inParallel(static_cast<int>(from.size()), static_cast<int>(from.size()), [&](int k) {
+    const auto index = static_cast<std::size_t>(k);
+    seen[index] = projected(scenario, plan, window, from[index], asking);
+  });
+  const std::vector<double> instants = drawnInstants(window);
+  const Tracks tracks{trackOf(window.replay, instants), seen, coarse(scenario, plan, window)};
+  const Residual residual(samples);
+  const auto at = [&](std::size_t k, double t) {
+    ErrorBudget out = tracks.at(k, amplification.carried(window.window.start(), t, residual).head<3>());
+    out.t = t;
+    return out;
+  };
+  ErrorBudget budget = at(instants.size(), instants.back());
+  budget.measured = true;
+  budget.amplification = window.window.from_start.back();
+  budget.along = curveOf(tracks, instants, at, window, positionScale(samples));
+  addModel(samples, window, amplification, budget);
+  budget.dominant = dominantOf(budget);
+  return budget;
 }
 
 }  // namespace
@@ -185,49 +226,12 @@ double ErrorBudget::uncertainty() const {
 }
 
 ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
-                      const std::vector<WindowedReplay>& windows, const Amplification& amplification,
+                      const std::vector<WindowedReplay>& windows, const Amplification* amplification,
                       const ReplayPlan& plan) {
-  ErrorBudget budget;
   const WindowedReplay* window = worstWindow(windows);
-  if (window == nullptr) return budget;
-  budget.measured = true;
-  budget.t = window->replay.steps.back().t;
-  budget.observed = endOf(window->replay);
-  budget.amplification = window->window.from_start.back();
-
-  std::vector<FrameChange> from = {FrameChange(*scenario.manipulator)};
-  for (unsigned k = 0; k < frame_changes; ++k)
-    from.push_back(randomFrameChange(k + 101, amplification.length(), *scenario.manipulator));
-  std::mutex asking;
-  std::vector<std::optional<Track>> seen(from.size());
-  inParallel(static_cast<int>(from.size()), static_cast<int>(from.size()), [&](int k) {
-    const auto index = static_cast<std::size_t>(k);
-    seen[index] = projected(scenario, plan, *window, from[index], asking);
-  });
-  std::vector<Track> turned;
-  for (unsigned k = 1; k <= frame_changes; ++k) turned.push_back(*seen[k]);
-  const Tracks tracks{Track(window->replay, drawnInstants(*window)), *seen[0], turned, coarse(scenario, plan, *window)};
-  Vector3d mean = Vector3d::Zero();
-  for (const Track& each : tracks.turned) mean += each.end / frame_changes;
-  double spread = 0;
-  for (const auto& each : seen) spread = std::max(spread, (each->end - mean).norm());
-  budget.closure.error = budget.observed - tracks.plain.end;
-  budget.rounding = {tracks.plain.end - mean,
-                     spread};  // the uncertainty covers the mean and the judged replay relative to it
-  budget.closure.uncertainty = spread;
-  budget.integration = integrationShare(tracks.plain.end, tracks.coarse.end);
-  budget.along = sharesAlong(tracks, samples, *window, amplification);
-  addModel(samples, *window, amplification, budget);
-  budget.dominant = dominantOf(budget);
-  return budget;
-}
-
-ErrorBudget attributeInTime(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
-                            const std::vector<WindowedReplay>& windows, const Amplification* amplification,
-                            const ReplayPlan& plan) {
-  if (windows.empty() || amplification == nullptr) return {};
+  if (window == nullptr || amplification == nullptr) return {};
   try {
-    return attribute(scenario, samples, windows, *amplification, plan);
+    return attributed(scenario, samples, *window, *amplification, plan);
   } catch (const OutOfTime&) {
     return {};
   }

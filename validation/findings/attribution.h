@@ -11,22 +11,10 @@
 
 namespace ursula {
 
-enum class ErrorSource { model, integration, rounding, closure, amplification, unexplained };
-
-/// "model", "integration", …
-const char* name(ErrorSource source);
-
 /// The measured contribution of one source to the replay's position error.
 struct ErrorShare {
   Vector3d error = Vector3d::Zero();  ///< m, in B
   double uncertainty = 0;             ///< m
-};
-
-/// The sizes of the contributions at one instant, all in m; NaN if a replay ended earlier.
-struct ErrorsAt {
-  double t = 0;  ///< s
-  double observed = 0, rounding = 0, integration = 0, closure = 0, model = 0, unexplained = 0;
-  double limit = 0;  ///< limit of the judged replay
 };
 
 /// The sources of the replay's error, at the window end with the largest error. The contributions are differences
@@ -43,9 +31,11 @@ struct ErrorBudget {
   ErrorShare rounding;        ///< from the change in turned, relabelled and rescaled frames
   ErrorShare closure;         ///< from the change when the gaps are projected away
   double amplification = 0;   ///< growth of a deviation at the window's start; not an error itself
-  ErrorSource dominant = ErrorSource::unexplained;
-  bool measured = false;        ///< false without a replay to analyse
-  std::vector<ErrorsAt> along;  ///< the same from the window's start to t, for a plot
+  std::string dominant = "unexplained";  ///< a source's name as in ReplayError
+  bool measured = false;                 ///< false without a replay to analyse
+  /// Sizes of the contributions and the limit of the judged replay from the window's start to t, for a plot. NaN where
+  /// a replay ended earlier.
+  TimeSeries along;
 
   Vector3d unexplained() const;
   /// Uncertainty of the sum of the contributions, m.
@@ -53,13 +43,10 @@ struct ErrorBudget {
 };
 
 /// Repeats the window's replay in several ways. `windows` are the judged replays under `torques`; `plan` produced them.
+/// Empty without a replay, or if the scenario's time is up, because it decides nothing.
 ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
-                      const std::vector<WindowedReplay>& windows, const Amplification& amplification,
+                      const std::vector<WindowedReplay>& windows, const Amplification* amplification,
                       const ReplayPlan& plan);
-/// The same; empty without a replay, or if the scenario's time is up, because it decides nothing.
-ErrorBudget attributeInTime(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
-                            const std::vector<WindowedReplay>& windows, const Amplification* amplification,
-                            const ReplayPlan& plan);
 
 /// The source of what is left if the efforts are those of a file.
 constexpr const char* between_samples = "between the samples";
@@ -67,6 +54,6 @@ constexpr const char* between_samples = "between the samples";
 /// Adds the findings, and `along` as a curve. Amplification dominates if a replay's limit, not its error, prevents a
 /// verdict. `rest` names what no measured source explains.
 void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units& units = {},
-               const std::string& rest = name(ErrorSource::unexplained));
+               const std::string& rest = "unexplained");
 
 }  // namespace ursula

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <limits>
-#include <optional>
 
 #include "base/provenance.h"
 #include "base/sha1.h"
@@ -15,29 +14,6 @@ namespace ursula {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-/// The largest κ(B), which is infinite at a singular pose.
-Finding nearestToSingular(const std::vector<PointwiseSample>& samples, const Units& units) {
-  const PointwiseSample& at = *std::max_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
-    return a.conditioning.kappa_B < b.conditioning.kappa_B;
-  });
-  return {"largest condition number of B", "", at.conditioning.kappa_B, none, "", at.motion.t * units.time};
-}
-
-/// The smallest |sin θ|, which is 0 if a leg is stretched or folded; none where no leg has a knee.
-std::optional<Finding> nearestToEdge(const std::vector<PointwiseSample>& samples, const Units& units) {
-  const PointwiseSample& at = *std::min_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
-    return a.conditioning.smallest_sine < b.conditioning.smallest_sine;
-  });
-  if (!(at.conditioning.smallest_sine < 1)) return {};
-  return Finding{"smallest |sin theta|",
-                 "",
-                 at.conditioning.smallest_sine,
-                 none,
-                 "",
-                 at.motion.t * units.time,
-                 at.conditioning.smallest_sine_leg + 1};
-}
 
 void addStopped(const std::vector<WindowedReplay>& windows, const Units& units, ValidationResult& result) {
   for (const WindowedReplay& window : windows) {
@@ -70,6 +46,18 @@ void addReplayed(const std::vector<WindowedReplay>& windows, const Units& units,
 
 }  // namespace
 
+const PointwiseSample& nearestToSingular(const std::vector<PointwiseSample>& samples) {
+  return *std::max_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
+    return a.conditioning.kappa_B < b.conditioning.kappa_B;
+  });
+}
+
+const PointwiseSample& nearestToEdge(const std::vector<PointwiseSample>& samples) {
+  return *std::min_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
+    return a.conditioning.smallest_sine < b.conditioning.smallest_sine;
+  });
+}
+
 void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
                  ValidationResult& result, const Units& units) {
   result.replay_windows = windows.size();
@@ -84,8 +72,12 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
   result.findings.push_back({"largest platform acceleration", "", acceleration * units.acceleration(), none, "m/s^2"});
   const double relative = acceleration > 0 ? acceleration_error / acceleration : none;
   result.findings.push_back({"acceleration error, relative to the largest", "none commanded", relative});
-  result.findings.push_back(nearestToSingular(samples, units));
-  if (const auto edge = nearestToEdge(samples, units)) result.findings.push_back(*edge);
+  const PointwiseSample &singular = nearestToSingular(samples), &edge = nearestToEdge(samples);
+  result.findings.push_back(
+      {"largest condition number of B", "", singular.conditioning.kappa_B, none, "", singular.motion.t * units.time});
+  if (edge.conditioning.smallest_sine < 1)  // else no leg has a knee
+    result.findings.push_back({"smallest |sin theta|", "", edge.conditioning.smallest_sine, none, "",
+                               edge.motion.t * units.time, edge.conditioning.smallest_sine_leg + 1});
   if (!windows.empty()) addReplayed(windows, units, result);
 }
 

@@ -13,6 +13,10 @@
 
 namespace ursula {
 
+/// The sample with the largest condition number of B, and the one with the smallest |sin θ| of a knee. Need a sample.
+const PointwiseSample& nearestToSingular(const std::vector<PointwiseSample>& samples);
+const PointwiseSample& nearestToEdge(const std::vector<PointwiseSample>& samples);
+
 /// Adds curves for the report: the replay's error with its derived limit, and the growth of a deviation in each window.
 /// Further ones are the distances to singular poses and to the workspace's edge. Adds the replay's events.
 void addCurves(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,

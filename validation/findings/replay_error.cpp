@@ -1,33 +1,11 @@
 // Reports an error's sources as findings: numbers in SI, a curve, lines of the report.
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <stdexcept>
 
 #include "validation/findings/attribution.h"
 
 namespace ursula {
 namespace {
-
-TimeSeries curveOf(const std::vector<ErrorsAt>& along, const std::string& rest) {
-  const std::pair<std::string, double ErrorsAt::*> columns[] = {{"t_s", &ErrorsAt::t},
-                                                                {"observed (m)", &ErrorsAt::observed},
-                                                                {"rounding (m)", &ErrorsAt::rounding},
-                                                                {"integration (m)", &ErrorsAt::integration},
-                                                                {"loop closure (m)", &ErrorsAt::closure},
-                                                                {"torques (m)", &ErrorsAt::model},
-                                                                {rest + " (m)", &ErrorsAt::unexplained},
-                                                                {"limit (m)", &ErrorsAt::limit}};
-  TimeSeries curve;
-  for (const auto& [name, member] : columns) {
-    std::vector<double> values;
-    values.reserve(along.size());
-    for (const ErrorsAt& at : along) values.push_back(at.*member);
-    curve.add(name, std::move(values));
-  }
-  return curve;
-}
 
 /// Converts to SI.
 ReplayError replayErrorOf(const ErrorBudget& budget, const Units& units) {
@@ -63,24 +41,6 @@ void addSources(const ReplayError& found, const std::string& rest, ValidationRes
 
 }  // namespace
 
-const char* name(ErrorSource source) {
-  switch (source) {
-    case ErrorSource::model:
-      return "model";
-    case ErrorSource::integration:
-      return "integration";
-    case ErrorSource::rounding:
-      return "rounding";
-    case ErrorSource::closure:
-      return "closure";
-    case ErrorSource::amplification:
-      return "amplification";
-    case ErrorSource::unexplained:
-      return "unexplained";
-  }
-  throw std::logic_error("no such source of errors");
-}
-
 void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units& units, const std::string& rest) {
   const bool limit_too_large = std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
     return check.reason == Reason::limit_useless && check.name.rfind("replay.", 0) == 0;
@@ -92,17 +52,19 @@ void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units&
   const bool something_fails = std::any_of(result.checks.begin(), result.checks.end(),
                                            [](const Check& check) { return check.verdict == Verdict::fail; });
   if (!budget.measured && !something_fails && !limit_too_large) return;  // there is no error to have a source
-  const ErrorSource dominant = torques_fail      ? ErrorSource::model
-                               : limit_too_large ? ErrorSource::amplification
+  const std::string dominant = torques_fail      ? "model"
+                               : limit_too_large ? "amplification"
                                : budget.measured ? budget.dominant
-                                                 : ErrorSource::model;
+                                                 : "model";
   ReplayError found = replayErrorOf(budget, units);
   // Errors of wrong torques soon leave the range in which sources add up; then the torques are all that can be told.
   if (torques_fail && 2 * found.uncertainty > found.observed) found = {};
-  found.dominant = dominant == ErrorSource::unexplained ? rest : name(dominant);
+  found.dominant = dominant == "unexplained" ? rest : dominant;
   result.findings.push_back({"dominant error", found.dominant});
   if (found.measured) {
-    result.curves.emplace_back("Sources of the replay's error", curveOf(budget.along, rest));
+    result.curves.emplace_back("Sources of the replay's error", budget.along);
+    for (std::string& column : result.curves.back().second.names)
+      if (column == "unexplained (m)") column = rest + " (m)";
     addSources(found, rest, result);
   }
   result.replay_error = std::move(found);

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "model/quaternions.h"
@@ -13,102 +13,6 @@
 #include "validation/subject/torque_names.h"
 
 namespace ursula {
-namespace {
-
-TimeSeries curve(const std::vector<std::pair<std::string, std::vector<double>>>& columns) {
-  TimeSeries series;
-  for (const auto& [name, values] : columns) series.add(name, values);
-  return series;
-}
-
-bool reachesEnd(const WindowedReplay& window) {
-  return window.window.end() - window.replay.steps.back().t <= 1e-12 * window.window.end();
-}
-
-TimeSeries replayAndLimit(const std::vector<WindowedReplay>& windows, double position_scale) {
-  std::vector<double> t, error, limit;
-  for (const WindowedReplay& window : windows)
-    for (const ReplayStep& step : window.replay.steps) {
-      t.push_back(step.t);
-      error.push_back(step.position_error.norm());
-      limit.push_back(replayLimit(window, position_scale, step.t));
-      if (&step != &window.replay.steps.back() || reachesEnd(window)) continue;
-      t.push_back(window.window.end());  // nothing was computed after this
-      error.push_back(std::nan(""));
-      limit.push_back(std::nan(""));
-    }
-  return curve({{"t_s", t}, {"position error (m)", error}, {"derived limit (m)", limit}});
-}
-
-TimeSeries growth(const std::vector<WindowedReplay>& windows) {
-  std::vector<double> t, from_state, from_velocity;
-  for (const WindowedReplay& window : windows) {
-    t.insert(t.end(), window.window.t.begin(), window.window.t.end());
-    from_state.insert(from_state.end(), window.window.from_start.begin(), window.window.from_start.end());
-    from_velocity.insert(from_velocity.end(), window.window.growth.begin(), window.window.growth.end());
-  }
-  return curve({{"t_s", t}, {"of the state (1)", from_state}, {"of the velocity (s)", from_velocity}});
-}
-
-TimeSeries distances(const std::vector<PointwiseSample>& samples) {
-  std::vector<double> t, singular, edge;
-  for (const PointwiseSample& sample : samples) {
-    t.push_back(sample.motion.t);
-    singular.push_back(1 / sample.conditioning.kappa_B);
-    edge.push_back(sample.conditioning.smallest_sine);
-  }
-  // Telescopic legs have no bend, so their sine is always 1.
-  const bool bends = std::any_of(edge.begin(), edge.end(), [](double sine) { return sine < 1; });
-  if (!bends) return curve({{"t_s", t}, {"1/κ(B): 0 in a singular pose", singular}});
-  return curve({{"t_s", t},
-                {"1/κ(B): 0 in a singular pose", singular},
-                {"sine of the bend: 0 in a stretched or folded leg", edge}});
-}
-
-void addEvents(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
-               ValidationResult& result) {
-  for (const WindowedReplay& window : windows) {
-    if (&window != &windows.front()) result.events.push_back({window.window.start(), "the replay starts again"});
-    const Replay& replay = window.replay;
-    if (!replay.gave_up.empty()) result.events.push_back({replay.stopped_at, "the replay stopped"});
-    if (replay.left_path) result.events.push_back({replay.steps.back().t, "the replay left the path"});
-  }
-  if (samples.empty()) return;
-  const auto singular = std::max_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
-    return a.conditioning.kappa_B < b.conditioning.kappa_B;
-  });
-  const auto edge = std::min_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
-    return a.conditioning.smallest_sine < b.conditioning.smallest_sine;
-  });
-  result.events.push_back({singular->motion.t, "nearest to a singular pose"});
-  if (edge->conditioning.smallest_sine < 1)
-    result.events.push_back({edge->motion.t, "a leg is nearest to stretched or folded"});
-}
-
-}  // namespace
-
-void addCurves(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
-               ValidationResult& result) {
-  addEvents(samples, windows, result);
-  if (!windows.empty()) {
-    result.curves.emplace_back("Replay against its derived limit", replayAndLimit(windows, positionScale(samples)));
-    result.curves.emplace_back("Growth of a deviation at the start of its window", growth(windows));
-  }
-  result.curves.emplace_back("Distance to singular poses and to the workspace's edge", distances(samples));
-}
-
-TimeSeries workPrecision(const Ladder& ladder) {
-  TimeSeries series;
-  std::vector<double> evaluations, distances;
-  for (const Rung& rung : ladder.rungs) {
-    evaluations.push_back(static_cast<double>(rung.evaluations));
-    distances.push_back(rung.distance);
-  }
-  series.add("evaluations", std::move(evaluations));
-  series.add("rkf78_error_m", std::move(distances));
-  return series;
-}
-
 namespace {
 
 template <class Rows, class F>
@@ -127,6 +31,85 @@ void addVector(TimeSeries& series, const std::string& pattern, const Rows& rows,
     addColumn(series, fmt::format(fmt::runtime(pattern), axes[k]), rows,
               [&](const auto& row) { return vector(row)(k); });
 }
+
+bool reachesEnd(const WindowedReplay& window) {
+  return window.window.end() - window.replay.steps.back().t <= 1e-12 * window.window.end();
+}
+
+TimeSeries replayAndLimit(const std::vector<WindowedReplay>& windows, double position_scale) {
+  std::vector<double> t, error, limit;
+  for (const WindowedReplay& window : windows)
+    for (const ReplayStep& step : window.replay.steps) {
+      t.push_back(step.t);
+      error.push_back(step.position_error.norm());
+      limit.push_back(replayLimit(window, position_scale, step.t));
+      if (&step != &window.replay.steps.back() || reachesEnd(window)) continue;
+      t.push_back(window.window.end());  // nothing was computed after this
+      error.push_back(std::nan(""));
+      limit.push_back(std::nan(""));
+    }
+  return {{"t_s", "position error (m)", "derived limit (m)"}, {t, error, limit}};
+}
+
+TimeSeries growth(const std::vector<WindowedReplay>& windows) {
+  std::vector<double> t, from_state, from_velocity;
+  for (const WindowedReplay& window : windows) {
+    t.insert(t.end(), window.window.t.begin(), window.window.t.end());
+    from_state.insert(from_state.end(), window.window.from_start.begin(), window.window.from_start.end());
+    from_velocity.insert(from_velocity.end(), window.window.growth.begin(), window.window.growth.end());
+  }
+  return {{"t_s", "of the state (1)", "of the velocity (s)"}, {t, from_state, from_velocity}};
+}
+
+TimeSeries distances(const std::vector<PointwiseSample>& samples) {
+  using Sample = PointwiseSample;
+  TimeSeries out;
+  addColumn(out, "t_s", samples, [](const Sample& sample) { return sample.motion.t; });
+  addColumn(out, "1/κ(B): 0 in a singular pose", samples, [](const Sample& s) { return 1 / s.conditioning.kappa_B; });
+  // Telescopic legs have no bend, so their sine is always 1.
+  const auto bends = [](const Sample& sample) { return sample.conditioning.smallest_sine < 1; };
+  if (std::any_of(samples.begin(), samples.end(), bends))
+    addColumn(out, "sine of the bend: 0 in a stretched or folded leg", samples,
+              [](const Sample& sample) { return sample.conditioning.smallest_sine; });
+  return out;
+}
+
+void addEvents(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
+               ValidationResult& result) {
+  for (const WindowedReplay& window : windows) {
+    if (&window != &windows.front()) result.events.push_back({window.window.start(), "the replay starts again"});
+    const Replay& replay = window.replay;
+    if (!replay.gave_up.empty()) result.events.push_back({replay.stopped_at, "the replay stopped"});
+    if (replay.left_path) result.events.push_back({replay.steps.back().t, "the replay left the path"});
+  }
+  if (samples.empty()) return;
+  result.events.push_back({nearestToSingular(samples).motion.t, "nearest to a singular pose"});
+  const PointwiseSample& edge = nearestToEdge(samples);
+  if (edge.conditioning.smallest_sine < 1)
+    result.events.push_back({edge.motion.t, "a leg is nearest to stretched or folded"});
+}
+
+}  // namespace
+
+void addCurves(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
+               ValidationResult& result) {
+  addEvents(samples, windows, result);
+  if (!windows.empty()) {
+    result.curves.emplace_back("Replay against its derived limit", replayAndLimit(windows, positionScale(samples)));
+    result.curves.emplace_back("Growth of a deviation at the start of its window", growth(windows));
+  }
+  result.curves.emplace_back("Distance to singular poses and to the workspace's edge", distances(samples));
+}
+
+TimeSeries workPrecision(const Ladder& ladder) {
+  TimeSeries series;
+  addColumn(series, "evaluations", ladder.rungs,
+            [](const Rung& rung) { return static_cast<double>(rung.evaluations); });
+  addColumn(series, "rkf78_error_m", ladder.rungs, [](const Rung& rung) { return rung.distance; });
+  return series;
+}
+
+namespace {
 
 /// Adds one column per motor's effort.
 template <class Rows, class F>
@@ -149,12 +132,16 @@ void addCoordinates(TimeSeries& series, const std::string& rate, const Manipulat
     }
 }
 
+void addRotation(TimeSeries& series, const std::string& prefix, const std::vector<Motion<double>>& motions) {
+  const std::vector<Eigen::Vector4d> q = quaternions(motions);
+  for (int k = 0; k < 4; ++k)
+    addColumn(series, prefix + "wxyz"[k], q, [k](const Eigen::Vector4d& row) { return row(k); });
+}
+
 void addMotion(TimeSeries& series, const std::vector<Motion<double>>& motions) {
   addColumn(series, "t_s", motions, [](const Motion<double>& m) { return m.t; });
   addVector(series, "p_{}_m", motions, [](const Motion<double>& m) { return m.p; });
-  const std::vector<Eigen::Vector4d> q = quaternions(motions);
-  const char* parts[] = {"q_w", "q_x", "q_y", "q_z"};
-  for (int k = 0; k < 4; ++k) addColumn(series, parts[k], q, [k](const Eigen::Vector4d& row) { return row(k); });
+  addRotation(series, "q_", motions);
   addVector(series, "v_{}_m_s", motions, [](const Motion<double>& m) { return m.p_dot; });
   addVector(series, "w_{}_rad_s", motions, [](const Motion<double>& m) { return m.omega; });
   addVector(series, "a_{}_m_s2", motions, [](const Motion<double>& m) { return m.p_ddot; });
@@ -206,9 +193,7 @@ void addReplay(TimeSeries& series, const std::vector<Motion<double>>& motions,
       simulated[k].Q = Eigen::AngleAxisd(angle, steps[k].rotation_error / angle).toRotationMatrix() * simulated[k].Q;
   }
   addVector(series, "sim_p_{}_m", simulated, [](const Motion<double>& m) { return m.p; });
-  const std::vector<Eigen::Vector4d> q = quaternions(simulated);
-  const char* parts[] = {"sim_q_w", "sim_q_x", "sim_q_y", "sim_q_z"};
-  for (int k = 0; k < 4; ++k) addColumn(series, parts[k], q, [k](const Eigen::Vector4d& row) { return row(k); });
+  addRotation(series, "sim_q_", simulated);
   addColumn(series, "error_p_m", steps, [](const ReplayStep& s) { return s.position_error.norm(); });
   addColumn(series, "error_q_rad", steps, [](const ReplayStep& s) { return s.rotation_error.norm(); });
   addColumn(series, "closure_p_m", steps, [](const ReplayStep& s) { return s.closure.position; });
@@ -256,25 +241,15 @@ TimeSeries validationSeries(const Manipulator& machine, const std::vector<Pointw
 }
 
 void addReactionColumns(const Manipulator& machine, const std::vector<ReactionSample>& reactions, TimeSeries& series) {
-  struct Column {
-    const char* pattern;
-    Vector3d LegReactions::*member;
-  };
-  const std::array<Column, 5> columns{{{"reaction_fA_{}_{}_N", &LegReactions::f_A},
-                                       {"reaction_nA_{}_{}_Nm", &LegReactions::n_A},
-                                       {"reaction_fR_{}_{}_N", &LegReactions::f_R},
-                                       {"reaction_nR_{}_{}_Nm", &LegReactions::n_R},
-                                       {"reaction_fB_{}_{}_N", &LegReactions::f_B}}};
-  const std::array<char, 3> axes{'x', 'y', 'z'};
-  for (const Column& column : columns)
+  const std::tuple<const char*, const char*, Vector3d LegReactions::*> columns[] = {{"fA", "N", &LegReactions::f_A},
+                                                                                    {"nA", "Nm", &LegReactions::n_A},
+                                                                                    {"fR", "N", &LegReactions::f_R},
+                                                                                    {"nR", "Nm", &LegReactions::n_R},
+                                                                                    {"fB", "N", &LegReactions::f_B}};
+  for (const auto& [what, unit, member] : columns)
     for (std::size_t leg = 0; leg < machine.parameters().legs.size(); ++leg)
-      for (int k = 0; k < 3; ++k) {
-        std::vector<double> values;
-        values.reserve(reactions.size());
-        for (const ReactionSample& row : reactions) values.push_back((row.recovered[leg].*column.member)(k));
-        series.add(fmt::format(fmt::runtime(column.pattern), axes[static_cast<std::size_t>(k)], leg + 1),
-                   std::move(values));
-      }
+      addVector(series, fmt::format("reaction_{}_{{}}_{}_{}", what, leg + 1, unit), reactions,
+                [leg, member = member](const ReactionSample& row) { return row.recovered[leg].*member; });
 }
 
 }  // namespace ursula
