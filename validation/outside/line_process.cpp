@@ -7,12 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <ctime>
-#include <iterator>
 #include <locale>
 #include <sstream>
 #include <string_view>
@@ -156,43 +154,32 @@ std::string_view trimmed(std::string_view text) {
   return first == text.npos ? std::string_view{} : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// std::from_chars reports "out of range" for both too large and too small numbers; a stream distinguishes them.
+/// leadingNumber() reads neither too large nor too small numbers; a stream distinguishes them.
 bool isBelowRange(std::string_view digits) {
   std::istringstream stream{std::string(digits)};
   stream.imbue(std::locale::classic());
   double value = 1;
-  return stream >> value && std::abs(value) < 1;
+  return stream >> value && stream.eof() && std::abs(value) < 1;
 }
 
 /// A number smaller than any double becomes 0.
 double numberOf(std::string_view cell, int index) {
-  std::string_view digits = trimmed(cell);
-  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  const bool is_small = error == std::errc::result_out_of_range && isBelowRange(digits);
-  if ((error != std::errc{} && !is_small) || end != digits.data() + digits.size() || !std::isfinite(value))
-    throw SolverProcessError(fmt::format("its effort {} is '{}', expected a finite number{}", index,
-                                         shown(trimmed(cell), most_shown),
-                                         cell.find_first_of("[(") != cell.npos ? ", and no brackets" : ""));
-  return value;
+  const std::string_view digits = trimmed(cell);
+  const LeadingNumber number = leadingNumber(digits);
+  if (number.length > 0 && number.length == digits.size() && std::isfinite(number.value)) return number.value;
+  if (number.length == 0 && isBelowRange(digits)) return 0;
+  throw SolverProcessError(fmt::format("its effort {} is '{}', expected a finite number{}", index,
+                                       shown(digits, most_shown),
+                                       cell.find_first_of("[(") != cell.npos ? ", and no brackets" : ""));
 }
 
 }  // namespace
 
 std::string solverQuestion(const Motion<double>& motion) {
-  fmt::memory_buffer line;
-  const auto add = [&line](const auto& values) {
-    for (Eigen::Index k = 0; k < values.size(); ++k) fmt::format_to(std::back_inserter(line), ",{:.17g}", values(k));
-  };
-  fmt::format_to(std::back_inserter(line), "{:.17g}", motion.t);
-  add(motion.p);
-  add(quaternions({motion}).front());
-  add(motion.p_dot);
-  add(motion.omega);
-  add(motion.p_ddot);
-  add(motion.omega_dot);
-  return fmt::to_string(line);
+  const auto cells = [](const auto& vector) { return fmt::join(vector.begin(), vector.end(), ","); };
+  const Eigen::Vector4d q = quaternions({motion}).front();
+  return fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}", motion.t, cells(motion.p), cells(q),
+                     cells(motion.p_dot), cells(motion.omega), cells(motion.p_ddot), cells(motion.omega_dot));
 }
 
 Vector6d solverAnswer(const std::string& line) {
