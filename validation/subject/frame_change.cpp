@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/real50.h"
+
 namespace ursula {
 namespace {
 
@@ -107,30 +109,22 @@ Manipulator FrameChange::of(const Manipulator& machine) const {
   return Manipulator(out);
 }
 
-Motion<double> FrameChange::of(const Motion<double>& motion) const {
-  Motion<double> out;
-  out.t = motion.t / units.time;
-  out.p = turn * (motion.p - origin) / units.length;
-  out.Q = turn * motion.Q * platform_turn;
-  out.omega = turn * motion.omega * units.time;
-  out.p_dot = turn * motion.p_dot / units.velocity();
-  out.omega_dot = turn * motion.omega_dot * (units.time * units.time);
-  out.p_ddot = turn * motion.p_ddot / units.acceleration();
+template <class S>
+Motion<S> FrameChange::of(const Motion<S>& motion) const {
+  const Matrix3<S> R = turn.cast<S>();
+  const S time = units.time;
+  Motion<S> out;
+  out.t = motion.t / time;
+  out.p = R * (motion.p - origin.cast<S>()) / S(units.length);
+  out.Q = R * motion.Q * platform_turn.cast<S>();
+  out.omega = R * motion.omega * time;
+  out.p_dot = R * motion.p_dot / S(units.velocity());
+  out.omega_dot = R * motion.omega_dot * S(time * time);
+  out.p_ddot = R * motion.p_ddot / S(units.acceleration());
   return out;
 }
-
-Motion<double> FrameChange::back(const Motion<double>& motion) const {
-  const Matrix3d R = turn.transpose();
-  Motion<double> out;
-  out.t = motion.t * units.time;
-  out.p = R * motion.p * units.length + origin;
-  out.Q = R * motion.Q * platform_turn.transpose();
-  out.omega = R * motion.omega / units.time;
-  out.p_dot = R * motion.p_dot * units.velocity();
-  out.omega_dot = R * motion.omega_dot / (units.time * units.time);
-  out.p_ddot = R * motion.p_ddot * units.acceleration();
-  return out;
-}
+template Motion<double> FrameChange::of(const Motion<double>&) const;
+template Motion<Real50> FrameChange::of(const Motion<Real50>&) const;
 
 std::shared_ptr<const Load> FrameChange::of(const std::shared_ptr<const Load>& load) const {
   if (!load) return nullptr;

@@ -60,7 +60,8 @@ struct FrameChange {
   double effort(int k) const { return slides[static_cast<std::size_t>(k)] ? units.force() : units.torque(); }
 
   Manipulator of(const Manipulator& machine) const;
-  Motion<double> of(const Motion<double>& motion) const;
+  template <class S>  // double or Real50
+  Motion<S> of(const Motion<S>& motion) const;
   /// Returns null for null.
   std::shared_ptr<const Load> of(const std::shared_ptr<const Load>& load) const;
   /// Efforts of the motors, N·m or N.
@@ -69,7 +70,6 @@ struct FrameChange {
   Scenario of(const Scenario& scenario) const;
 
   // Convert answers from the new frame to the old one.
-  Motion<double> back(const Motion<double>& motion) const;
   Vector6d torquesBack(const Vector6d& torques) const;
   BodyMotions<double> back(const BodyMotions<double>& bodies) const;
   /// Rates and accelerations, but only displacements d and angles ψ and θ, because φ is measured from an axis that does

@@ -175,14 +175,18 @@ bool isTimeThenTorques(const CsvTable& table) {
          std::none_of(table.columns.begin() + 1, table.columns.end(), looksLikeTime);
 }
 
-void useOwnNames(const std::vector<TorqueColumn>& columns, CsvTable& table) {
-  for (std::size_t i = 0; i < table.names.size(); ++i) {
-    const auto column = std::find_if(columns.begin(), columns.end(),
-                                     [&](const TorqueColumn& one) { return one.source == table.names[i]; });
-    table.names[i] = column->name;
-    const double unit = std::pow(10.0, std::abs(column->power));
-    for (double& value : table.columns[i]) value = column->power < 0 ? value / unit : value * unit;
-    for (int& place : table.last_places[i]) place += column->power;
+/// Puts the columns in this order, with their names and in SI.
+void arrange(const std::vector<TorqueColumn>& columns, CsvTable& table) {
+  const CsvTable given = table;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const auto from = std::find(given.names.begin(), given.names.end(), columns[i].source) - given.names.begin();
+    const int power = columns[i].power;
+    const double unit = std::pow(10.0, std::abs(power));
+    table.names[i] = columns[i].name;
+    table.columns[i] = given.columns[static_cast<std::size_t>(from)];
+    table.last_places[i] = given.last_places[static_cast<std::size_t>(from)];
+    for (double& value : table.columns[i]) value = power < 0 ? value / unit : value * unit;
+    for (int& place : table.last_places[i]) place += power;
   }
 }
 
@@ -238,7 +242,7 @@ TorqueColumns readTorqueColumns(const std::string& text, const std::filesystem::
     return std::any_of(columns.begin(), columns.end(), [&](const TorqueColumn& one) { return one.source == name; });
   };
   TorqueColumns out{parseCsv(text, file, options), readAs(options.dialect, columns)};
-  useOwnNames(columns, out.table);
+  arrange(columns, out.table);
   return out;
 }
 

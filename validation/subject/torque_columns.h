@@ -25,7 +25,7 @@ struct TorqueColumn {
   int power = 0;       ///< power of ten from the file's unit to SI: 3 for kN·m
 };
 
-/// A torque file as a table of `t_s` and `tau_{1..6}_Nm`, or `_N` for sliding motors, in SI.
+/// A torque file as a table of `t_s` and `tau_{1..6}_Nm`, or `_N` for sliding motors, in this order and in SI.
 struct TorqueColumns {
   CsvTable table;
   std::string read_as;  ///< how columns were interpreted, in words; empty for a file that follows the contract

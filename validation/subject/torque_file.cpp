@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -37,21 +36,6 @@ struct Fineness {
     const int by_digits = value == 0 ? last_place : firstPlace(value) - digits + 1;
     const double half = 0.5 * std::pow(10.0, std::min(place, std::max(last_place, by_digits)));
     return half > eps * std::abs(value) ? half : 0;  // finer than a double: exact
-  }
-};
-
-/// The columns of the contract in a parsed table.
-struct Columns {
-  std::size_t time = 0;
-  std::array<std::size_t, motor_count> torques{};
-
-  Columns(const CsvTable& table, const Motors& motors) : time(place(table, "t_s")) {
-    for (int i = 0; i < motor_count; ++i) torques[static_cast<std::size_t>(i)] = place(table, effortColumn(motors, i));
-  }
-
- private:
-  static std::size_t place(const CsvTable& table, const std::string& name) {
-    return static_cast<std::size_t>(&table.at(name) - table.columns.data());
   }
 };
 
@@ -96,42 +80,33 @@ void setTimePrecision(const std::vector<int>& places, const Fineness& whole, Tor
   }
 }
 
-void setTorquePrecision(const CsvTable& table, const Columns& columns, const Fineness& torques, TorqueFile& out) {
-  out.all_single = true;
-  for (std::size_t k = 0; k < table.rows(); ++k) {
-    Vector6d precision;
-    for (int i = 0; i < motor_count; ++i) {
-      const double value = out.torques[k](i);
-      precision(i) = torques.precision(value, table.last_places[columns.torques[static_cast<std::size_t>(i)]][k]);
-      out.all_single = out.all_single && static_cast<double>(static_cast<float>(value)) == value;
-    }
-    out.torque_precision.push_back(precision);
-  }
-  out.digits = torques.digits;
-}
-
-TorqueFile torquesOf(const CsvTable& table, const Motors& motors) {
-  const Columns columns(table, motors);
+/// The table has the time, then the efforts of the motors.
+TorqueFile torquesOf(const CsvTable& table) {
   TorqueFile out;
   out.file = table.file;
   out.lines = table.lines;
   out.ignored = table.ignored;
-  out.t = table.columns[columns.time];
+  out.t = table.columns.front();
   requireIncreasing(table, out.t);
   Fineness torques;
-  for (std::size_t k = 0; k < table.rows(); ++k) {
-    Vector6d tau;
-    for (int i = 0; i < motor_count; ++i) {
-      const std::size_t column = columns.torques[static_cast<std::size_t>(i)];
-      tau(i) = table.columns[column][k];
-      torques.add(tau(i), table.last_places[column][k]);
+  out.torques.resize(table.rows());
+  out.torque_precision.resize(table.rows());
+  out.all_single = true;
+  for (std::size_t k = 0; k < table.rows(); ++k)
+    for (std::size_t i = 0; i < motor_count; ++i) {
+      const double value = table.columns[1 + i][k];
+      out.torques[k](static_cast<Eigen::Index>(i)) = value;
+      torques.add(value, table.last_places[1 + i][k]);
+      out.all_single = out.all_single && static_cast<double>(static_cast<float>(value)) == value;
     }
-    out.torques.push_back(tau);
-  }
+  for (std::size_t k = 0; k < table.rows(); ++k)
+    for (std::size_t i = 0; i < motor_count; ++i)
+      out.torque_precision[k](static_cast<Eigen::Index>(i)) =
+          torques.precision(table.columns[1 + i][k], table.last_places[1 + i][k]);
+  out.digits = torques.digits;
   Fineness whole = torques;
-  const std::vector<int>& places = table.last_places[columns.time];
+  const std::vector<int>& places = table.last_places.front();
   for (std::size_t k = 0; k < table.rows(); ++k) whole.add(out.t[k], places[k]);
-  setTorquePrecision(table, columns, torques, out);
   setTimePrecision(places, whole, out);
   return out;
 }
@@ -145,7 +120,7 @@ TorqueFile readTorqueFile(const std::filesystem::path& file, const ColumnMap& ma
 TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path& file, const ColumnMap& map,
                            const Motors& motors) {
   const TorqueColumns columns = readTorqueColumns(text, file, map, motors);
-  TorqueFile out = torquesOf(columns.table, motors);
+  TorqueFile out = torquesOf(columns.table);
   out.read_as = columns.read_as;
   for (const auto& [name, column] : map) out.map += (out.map.empty() ? "" : " --map ") + shellWord(name + "=" + column);
   return out;

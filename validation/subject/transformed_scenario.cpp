@@ -12,74 +12,39 @@
 namespace ursula {
 namespace {
 
-/// A trajectory in a change of frame; its positions are already relative to the origin.
+/// A trajectory in a change of frame.
 class TransformedTrajectory final : public ExactTrajectory {
  public:
   TransformedTrajectory(std::shared_ptr<const Trajectory> from, const FrameChange& frame_change)
       : from_(std::move(from)), frame_change_(frame_change), knots_(from_->knots()) {
-    frame_change_.origin.setZero();
     for (double& knot : knots_) knot /= frame_change.units.time;
   }
   std::string kind() const override { return from_->kind(); }
   double duration() const override { return from_->duration() / frame_change_.units.time; }
-  Motion<double> at(double t) const override {
-    Motion<double> motion = frame_change_.of(from_->at(t * frame_change_.units.time));
-    motion.t = t;  // the requested instant, to the last bit
-    return motion;
-  }
-  Motion<Real50> at(const Real50& t) const override {
-    const FrameChange& p = frame_change_;
-    const Motion<Real50> from = from_->at(Real50(t * p.units.time));
-    const auto turn = p.turn.cast<Real50>().eval();
-    const Real50 length = p.units.length, time = p.units.time;
-    Motion<Real50> out;
-    out.t = t;
-    out.p = turn * from.p / length;
-    out.Q = turn * from.Q * p.platform_turn.cast<Real50>();
-    out.omega = turn * from.omega * time;
-    out.p_dot = turn * from.p_dot * Real50(time / length);
-    out.omega_dot = turn * from.omega_dot * Real50(time * time);
-    out.p_ddot = turn * from.p_ddot * Real50(time * time / length);
-    return out;
-  }
+  Motion<double> at(double t) const override { return changed(t); }
+  Motion<Real50> at(const Real50& t) const override { return changed(t); }
   const ExactTrajectory* exact() const override { return from_->exact() ? this : nullptr; }
   const std::vector<double>& knots() const override { return knots_; }
 
  private:
+  template <class S>
+  Motion<S> changed(const S& t) const {
+    Motion<S> motion = frame_change_.of(from_->at(S(t * frame_change_.units.time)));
+    motion.t = t;  // the requested instant, to the last bit
+    return motion;
+  }
+
   std::shared_ptr<const Trajectory> from_;
   FrameChange frame_change_;
   std::vector<double> knots_;
 };
 
-/// For trajectories that cannot change their origin themselves.
-class ShiftedTrajectory final : public ExactTrajectory {
- public:
-  ShiftedTrajectory(std::shared_ptr<const Trajectory> from, const Vector3d& origin)
-      : from_(std::move(from)), origin_(origin) {}
-  std::string kind() const override { return from_->kind(); }
-  double duration() const override { return from_->duration(); }
-  Motion<double> at(double t) const override {
-    Motion<double> motion = from_->at(t);
-    motion.p -= origin_;
-    return motion;
-  }
-  Motion<Real50> at(const Real50& t) const override {
-    Motion<Real50> motion = from_->at(t);
-    motion.p -= origin_.cast<Real50>();
-    return motion;
-  }
-  const ExactTrajectory* exact() const override { return from_->exact() ? this : nullptr; }
-  const std::vector<double>& knots() const override { return from_->knots(); }
-
- private:
-  std::shared_ptr<const Trajectory> from_;
-  Vector3d origin_;
-};
-
 std::shared_ptr<const Trajectory> shifted(const std::shared_ptr<const Trajectory>& from, const Vector3d& origin) {
   if (origin.isZero(0)) return from;
   if (std::shared_ptr<const Trajectory> moved = from->relativeTo(origin)) return moved;
-  return std::make_shared<const ShiftedTrajectory>(from, origin);
+  FrameChange shift;
+  shift.origin = origin;
+  return std::make_shared<const TransformedTrajectory>(from, shift);
 }
 
 double powerOfTwo(double x) { return std::exp2(std::floor(std::log2(x))); }
@@ -159,7 +124,9 @@ Scenario relocated(const Scenario& scenario, const Vector3d& origin) {
 Scenario FrameChange::of(const Scenario& scenario) const {
   Scenario out = scenario;
   out.manipulator = std::make_shared<const Manipulator>(of(*scenario.manipulator));
-  out.trajectory = std::make_shared<const TransformedTrajectory>(shifted(scenario.trajectory, origin), *this);
+  FrameChange about_origin = *this;
+  about_origin.origin.setZero();
+  out.trajectory = std::make_shared<const TransformedTrajectory>(shifted(scenario.trajectory, origin), about_origin);
   out.load = of(scenario.load);
   return out;
 }
