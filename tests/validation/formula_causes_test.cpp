@@ -61,8 +61,8 @@ Diagnosis saidOf(const Scenario& scenario, const std::function<void(Machine&)>& 
 Rows mistaken(const Scenario& scenario, const std::string& words, double share) {
   Rows out = rightOf(scenario);
   std::size_t found = 0;
-  for (const auto& causes : {termCauses, jointCauses, machineCauses})
-    for (const Cause& cause : causes(scenario)) {
+  for (const auto& group : {addTermCauses, addJointCauses, addMachineCauses})
+    for (const Cause& cause : causesOf(scenario, group)) {
       if (cause.words(0, 0) != words) continue;
       ++found;
       const Rows wrong = cause.torques(0, motionsOf(scenario));

@@ -239,7 +239,7 @@ TEST(LegCause, rodsThatDoNotSlideAreNamed) {
   std::vector<Motion<double>> motions;
   for (const double t : sampled()) motions.push_back(hexapod().trajectory->at(t));
   std::size_t seen = 0;
-  for (const Cause& cause : slidingCauses(hexapod())) {
+  for (const Cause& cause : causesOf(hexapod(), addSlidingCauses)) {
     if (!cause.fitted) continue;
     ++seen;
     const Diagnosis fixed = saidOf(cause.torques(0.9, motions));

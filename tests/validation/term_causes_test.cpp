@@ -56,7 +56,8 @@ TEST_P(Terms, areEachSeen) {
   std::set<std::string> kinds;
   const Vector6d right = expected(machine_);
   std::size_t seen = 0;
-  for (const std::vector<Cause>& causes : {termCauses(scenario_), jacobianCauses(scenario_), loopCauses(scenario_)}) {
+  for (const auto& group : {addTermCauses, addJacobianCauses, addLoopCauses}) {
+    const std::vector<Cause> causes = causesOf(scenario_, group);
     ASSERT_FALSE(causes.empty());
     for (const Cause& cause : causes) {
       const Vector6d wrong = cause.torques(0, {motion()}).at(0);
@@ -135,9 +136,9 @@ Scenario withRotors() {
 
 std::vector<Cause> causesLike(const Scenario& scenario, const std::string& words) {
   std::vector<Cause> out;
-  for (const auto& causes :
-       {termCauses, jointCauses, jacobianCauses, loopCauses, slidingCauses, rateCauses, motionCauses, machineCauses})
-    for (const Cause& cause : causes(scenario))
+  for (const auto& group : {addTermCauses, addJointCauses, addJacobianCauses, addLoopCauses, addSlidingCauses,
+                            addMotionCauses, addMachineCauses})
+    for (const Cause& cause : causesOf(scenario, group))
       if (cause.words(0, 0).find(words) != std::string::npos) out.push_back(cause);
   return out;
 }

@@ -33,35 +33,35 @@ bool isSinglePrecision(const ExternalTorques& torques) {
          });
 }
 
-bool isPrinted(const std::string& text, double value) { return leadingNumber(text).value == value; }
-
-/// Returns one unit of the last of `digits` significant digits.
-double lastDigit(double value, int digits) {
-  return value == 0 ? 0 : std::pow(10.0, std::floor(std::log10(std::abs(value))) - digits + 1);
+/// Whether a format reproduces every answer, and all deviate by at most half a unit of its last digit, or by less than
+/// one towards zero.
+bool areRounded(const ExternalTorques& torques, const std::function<std::string(double)>& text,
+                const std::function<double(double)>& unitAt) {
+  return holdsForAll(torques, [&](std::size_t k, int i) {
+    const double value = torques.file.torques[k](i), unit = unitAt(value);
+    const double off = offAt(torques, k, i), limit = unit * (1 + 1e-9) + roundingAt(torques, k);
+    const bool is_near =
+        std::abs(off) <= limit - 0.5 * unit || (off * torques.noc[k](i) <= 0 && std::abs(off) <= limit);
+    return is_near && leadingNumber(text(value)).value == value;
+  });
 }
 
-/// Explains answers that a format of few digits reproduces, and that deviate by at most half of the last digit, or by
-/// less than one towards zero.
+/// Explains answers that a format of few digits reproduces.
 std::optional<Explanation> rounded(const MotorNames& motors, const ExternalTorques& torques) {
   constexpr int most = 12;
-  const auto offBy = [&](std::size_t k, int i, double unit) {
-    const double off = offAt(torques, k, i), limit = unit * (1 + 1e-9) + roundingAt(torques, k);
-    return std::abs(off) <= limit - 0.5 * unit || (off * torques.noc[k](i) <= 0 && std::abs(off) <= limit);
-  };
   for (int digits = 1; digits <= most; ++digits) {
-    const bool all = holdsForAll(torques, [&](std::size_t k, int i) {
-      const double value = torques.file.torques[k](i);
-      return isPrinted(fmt::format("{:.{}e}", value, digits - 1), value) && offBy(k, i, lastDigit(value, digits));
-    });
-    if (all) return ofDigits(fmt::format("few digits: every answer is rounded to {} significant ones", digits));
+    const auto text = [digits](double value) { return fmt::format("{:.{}e}", value, digits - 1); };
+    const auto last_digit = [digits](double value) {
+      return value == 0 ? 0 : std::pow(10.0, std::floor(std::log10(std::abs(value))) - digits + 1);
+    };
+    if (areRounded(torques, text, last_digit))
+      return ofDigits(fmt::format("few digits: every answer is rounded to {} significant ones", digits));
   }
   for (int places = 0; places <= most; ++places) {
     const double unit = std::pow(10.0, -places);
-    const bool all = holdsForAll(torques, [&](std::size_t k, int i) {
-      const double value = torques.file.torques[k](i);
-      return isPrinted(fmt::format("{:.{}f}", value, places), value) && offBy(k, i, unit);
-    });
-    if (all) return ofDigits(fmt::format("few digits: every answer is rounded to {:g} {}", unit, motors.unit(0)));
+    const auto text = [places](double value) { return fmt::format("{:.{}f}", value, places); };
+    if (areRounded(torques, text, [unit](double) { return unit; }))
+      return ofDigits(fmt::format("few digits: every answer is rounded to {:g} {}", unit, motors.unit(0)));
   }
   return std::nullopt;
 }
@@ -101,12 +101,14 @@ bool isConstant(const ExternalTorques& torques, const AskedApart& asked, int i) 
   return most - least > 4 * limit && std::all_of(asked.found.begin(), asked.found.end(), same);
 }
 
-/// Whether a motor is right at every instant.
-bool isMotorRight(const ExternalTorques& torques, int i) {
-  for (std::size_t k = 0; k < torques.file.rows(); ++k)
-    if (!(std::abs(offAt(torques, k, i)) <= limitAt(torques, k, i))) return false;
+/// Whether the motors `from` to `to` are right at the instants `first` to `last`.
+bool areRight(const ExternalTorques& torques, std::size_t first, std::size_t last, int from, int to) {
+  for (std::size_t k = first; k < last; ++k)
+    for (int i = from; i < to; ++i)
+      if (!(std::abs(offAt(torques, k, i)) <= limitAt(torques, k, i))) return false;
   return true;
 }
+bool isMotorRight(const ExternalTorques& torques, int i) { return areRight(torques, 0, torques.file.rows(), i, i + 1); }
 
 /// A motor's efforts, and those that are cut off along the motion.
 struct Range {
@@ -155,12 +157,6 @@ bool areRepeated(const std::vector<double>& efforts) {
 
 }  // namespace
 
-bool isRight(const ExternalTorques& torques, std::size_t row) {
-  for (int i = 0; i < motor_count; ++i)
-    if (!(std::abs(offAt(torques, row, i)) <= limitAt(torques, row, i))) return false;
-  return true;
-}
-
 std::vector<int> wrongMotors(const ExternalTorques& torques) {
   std::vector<int> out;
   for (int i = 0; i < motor_count; ++i)
@@ -185,7 +181,7 @@ std::optional<Explanation> cutOff(const MotorNames& motors, const ExternalTorque
   if (!areRepeated(all)) return std::nullopt;
   Explanation out{"cut off, and right within the range: " + text, NamedCause{CauseKind::window}};
   for (std::size_t k = 0; k < torques.file.rows(); ++k) {
-    if (isRight(torques, k)) {
+    if (areRight(torques, k, k + 1, 0, motor_count)) {
       ++right;
       continue;
     }
@@ -247,11 +243,6 @@ double changedWhenAskedAgain(const ExternalTorques& torques, const AskedApart& a
     }
   }
   return largest > 0 ? change / largest : 0;
-}
-
-ExternalTorques inEveryDigit(ExternalTorques torques) {
-  for (Vector6d& row : torques.precision) row.setZero();
-  return torques;
 }
 
 }  // namespace ursula

@@ -20,8 +20,6 @@ inline double limitAt(const ExternalTorques& torques, std::size_t row, int motor
   return roundingAt(torques, row) + torques.precision[row](motor);
 }
 
-/// Whether all motors are right at an instant.
-bool isRight(const ExternalTorques& torques, std::size_t row);
 /// The motors that are wrong at some instant, 0-based.
 std::vector<int> wrongMotors(const ExternalTorques& torques);
 
@@ -42,8 +40,5 @@ std::optional<Explanation> cutOff(const MotorNames& motors, const ExternalTorque
 /// Returns the largest change of an answer that is asked again alone, relative to the largest effort; 0 if it may be
 /// rounding.
 double changedWhenAskedAgain(const ExternalTorques& torques, const AskedApart& asked);
-
-/// Removes the allowance for unprinted digits, because a solver's answers have every digit.
-ExternalTorques inEveryDigit(ExternalTorques torques);
 
 }  // namespace ursula

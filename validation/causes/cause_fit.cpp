@@ -20,16 +20,6 @@ constexpr std::size_t likely_causes = 64, best_causes = 12;
 constexpr double difference_step = 1e-5;
 constexpr double may_be_rounding = 2;  ///< limits: one for the given torques, one for the cause's
 
-/// Picks up to `most` rows from `first` to `last`, evenly.
-void pick(const TorqueResidual& data, std::size_t first, std::size_t last, std::size_t most, TorqueResidual& out) {
-  const std::size_t rows = last - first, count = std::min(rows, most);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t k = first + (count == 1 ? 0 : i * (rows - 1) / (count - 1));
-    out.add(data.motions[k], data.exact[k], data.exact[k] + data.residual[k], data.limit[k]);
-    out.residual.back() = data.residual[k];
-  }
-}
-
 /// One cause on some instants.
 class Fit {
  public:
@@ -53,8 +43,8 @@ class Fit {
 
   double likenessOfSlope() const {
     const Rows slope = slopeAt(0);
-    const double size = std::sqrt(dot(slope, slope));
-    if (!(size * difference_step > 1e-12 * std::sqrt(dot(data_.exact, data_.exact)))) return 0;
+    const double size = norm(slope);
+    if (!(size * difference_step > 1e-12 * norm(data_.exact))) return 0;
     return std::abs(dot(slope, data_.residual)) / (size * data_.norm());
   }
 
@@ -77,7 +67,7 @@ class Fit {
   Hypothesis hypothesis() {
     const Rows left = remaining(x_);
     const double deviation = cause_.fitted ? deviationAt(left) : 0;
-    Hypothesis out{cause_.words(x_, deviation), std::sqrt(dot(left, left)) / data_.norm(), cause_.fitted ? 1 : 0};
+    Hypothesis out{cause_.words(x_, deviation), norm(left) / data_.norm(), cause_.fitted ? 1 : 0};
     out.beyond = beyond(left);
     if (cause_.named) out.named = cause_.named(x_, deviation);
     if (cause_.is_possible) out.is_possible = cause_.is_possible(x_);
@@ -85,19 +75,9 @@ class Fit {
   }
 
  private:
-  /// How many times larger the subject's torques are than the right ones; their rounding grows in proportion.
-  double growth() const {
-    double found = 0, exact = 0;
-    for (std::size_t k = 0; k < data_.exact.size(); ++k) {
-      found = std::max(found, (data_.exact[k] + data_.residual[k]).cwiseAbs().maxCoeff());
-      exact = std::max(exact, data_.exact[k].cwiseAbs().maxCoeff());
-    }
-    return exact > 0 ? std::max(1.0, found / exact) : 1;
-  }
-
   /// The remainder in multiples of its limits, which are wider where the cause's torques round more.
   double beyond(const Rows& left) const {
-    const double as_of_right_ones = data_.beyond(left) / growth();
+    const double as_of_right_ones = data_.beyond(left) / data_.growth();
     if (!cause_.rounding) return as_of_right_ones;
     TorqueResidual wider = data_;
     for (std::size_t k = 0; k < left.size(); ++k)
@@ -118,14 +98,11 @@ class Fit {
   Rows remaining(double at) const {
     const std::optional<Rows> torques = torquesAt(at);
     Rows out(data_.exact.size(), Vector6d::Constant(HUGE_VAL));
-    for (std::size_t k = 0; torques && k < out.size(); ++k) out[k] = data_.exact[k] + data_.residual[k] - (*torques)[k];
+    for (std::size_t k = 0; torques && k < out.size(); ++k) out[k] = data_.found(k) - (*torques)[k];
     return out;
   }
 
-  double unexplainedAt(double at) const {
-    const Rows left = remaining(at);
-    return std::sqrt(dot(left, left)) / data_.norm();
-  }
+  double unexplainedAt(double at) const { return norm(remaining(at)) / data_.norm(); }
 
   /// The exact slope at 0 if the cause knows it, otherwise central differences. They are one-sided if a parameter
   /// cannot decrease.
@@ -200,16 +177,6 @@ void keepBest(std::vector<Candidate>& candidates, std::size_t most) {
 }
 
 }  // namespace
-
-TorqueResidual TorqueResidual::picked(std::size_t most) const {
-  TorqueResidual out;
-  out.motors = motors;
-  const std::size_t rows = exact.size(), apart = rows - commanded;
-  pick(*this, 0, commanded, most - std::min(apart, most / 2), out);
-  out.commanded = out.exact.size();
-  pick(*this, commanded, rows, most / 2, out);
-  return out;
-}
 
 std::vector<Hypothesis> fitCauses(const std::vector<Cause>& causes, const TorqueResidual& data) {
   const TorqueResidual few = data.picked(few_instants), all = data.picked(most_instants);

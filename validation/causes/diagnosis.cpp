@@ -20,29 +20,37 @@ constexpr double may_remain = 0.01;
 constexpr double may_be_beyond = 2, may_be_chance = 0.1;
 constexpr std::size_t most_named = 4;
 
-/// Where one leg's torque exceeds its limit.
-struct LegDeviation {
+/// The instants at which any of some motors' torques exceeds its limit.
+struct Deviating {
   std::size_t count = 0, first = 0, last = 0, worst = 0;
   double largest = 0;
+
+  std::size_t span() const { return last + 1 - first; }
 };
 
-LegDeviation deviationOf(const ExternalTorques& torques, int leg) {
-  LegDeviation out;
+Deviating deviationOf(const ExternalTorques& torques, int from_motor = 0, int to_motor = motor_count) {
+  Deviating out;
   for (std::size_t k = 0; k < torques.file.rows(); ++k) {
-    const double error = std::abs(offAt(torques, k, leg));
-    if (error <= limitAt(torques, k, leg)) continue;
+    bool is_off = false;
+    for (int motor = from_motor; motor < to_motor; ++motor) {
+      const double error = std::abs(offAt(torques, k, motor));
+      if (error <= limitAt(torques, k, motor)) continue;
+      is_off = true;
+      if (error > out.largest) out.largest = error, out.worst = k;
+    }
+    if (!is_off) continue;
     if (out.count++ == 0) out.first = k;
     out.last = k;
-    if (error > out.largest) out.largest = error, out.worst = k;
   }
   return out;
 }
 
-std::string intervalText(const ExternalTorques& torques, std::size_t count, std::size_t first, std::size_t last) {
+std::string intervalText(const ExternalTorques& torques, const Deviating& off) {
   const std::vector<double>& t = torques.file.t;
-  const std::string span = first == last ? fmt::format("at t = {:.6g} s", t[first])
-                                         : fmt::format("from t = {:.6g} to {:.6g} s", t[first], t[last]);
-  return fmt::format("{}, {} of {} instants", span, count, t.size());
+  const std::string span = off.first == off.last
+                               ? fmt::format("at t = {:.6g} s", t[off.first])
+                               : fmt::format("from t = {:.6g} to {:.6g} s", t[off.first], t[off.last]);
+  return fmt::format("{}, {} of {} instants", span, off.count, t.size());
 }
 
 double largestTorque(const ExternalTorques& torques) {
@@ -51,7 +59,7 @@ double largestTorque(const ExternalTorques& torques) {
   return largest;
 }
 
-std::string amountText(const LegDeviation& leg, const char* unit, double largest_torque) {
+std::string amountText(const Deviating& leg, const char* unit, double largest_torque) {
   const std::string share =
       largest_torque > 0 ? fmt::format(" ({:.3g} % of the largest torque)", 100 * leg.largest / largest_torque) : "";
   return fmt::format("by up to {:.4g} {}{}", leg.largest, unit, share);
@@ -61,28 +69,27 @@ std::string amountText(const LegDeviation& leg, const char* unit, double largest
 Diagnosis deviationTexts(const MotorNames& motors, const ExternalTorques& torques) {
   const double largest_torque = largestTorque(torques);
   std::string legs, details, right;
-  LegDeviation all;
+  Deviating all = deviationOf(torques);
+  all.count = 0;
+  double most = 0;
   int worst = 0;
-  all.first = torques.file.rows();
   for (int i = 0; i < motor_count; ++i) {
-    const LegDeviation leg = deviationOf(torques, i);
+    const Deviating leg = deviationOf(torques, i, i + 1);
     std::string& names = leg.count == 0 ? right : legs;
     names += fmt::format("{}{}", names.empty() ? "" : ", ", i + 1);
     if (leg.count == 0) continue;
     details += fmt::format("{}{} {} at t = {:.6g} s, beyond its limit {}", details.empty() ? "" : "; ", motors(i),
                            amountText(leg, motors.unit(i), largest_torque), torques.file.t[leg.worst],
-                           intervalText(torques, leg.count, leg.first, leg.last));
-    if (leg.largest > all.largest) all.largest = leg.largest, all.worst = leg.worst, worst = i;
-    all.first = std::min(all.first, leg.first);
-    all.last = std::max(all.last, leg.last);
+                           intervalText(torques, leg));
+    if (leg.largest > most) most = leg.largest, worst = i;
     all.count = std::max(all.count, leg.count);
   }
   if (legs.empty()) return {};
   const std::string kind = motors.kind();
   const std::string who = right.empty() ? "all " + kind + "s" : kind + (legs.size() == 1 ? " " : "s ") + legs;
-  return {fmt::format("{} {}, {}", who, amountText(all, motors.unit(worst), largest_torque),
-                      intervalText(torques, all.count, all.first, all.last)),
-          details + (right.empty() ? "; no " + kind + " is right" : "; within their limits: " + right), ""};
+  return {
+      fmt::format("{} {}, {}", who, amountText(all, motors.unit(worst), largest_torque), intervalText(torques, all)),
+      details + (right.empty() ? "; no " + kind + " is right" : "; within their limits: " + right), ""};
 }
 
 /// At most `most` instants, evenly picked, which suffice; then the answers to separate questions.
@@ -156,29 +163,13 @@ std::string othersText(const std::vector<Hypothesis>& best) {
   return out;
 }
 
-/// The instants from the first to the last deviating one.
-struct Window {
-  std::size_t off = 0, first = 0, last = 0;
-  std::size_t rows() const { return last + 1 - first; }
-};
-
-Window windowOf(const ExternalTorques& torques) {
-  Window out;
-  for (std::size_t k = 0; k < torques.file.rows(); ++k) {
-    if (isRight(torques, k)) continue;
-    if (out.off++ == 0) out.first = k;
-    out.last = k;
-  }
-  return out;
-}
-
 /// Describes at most one deviating instant in twenty, as from a falsified row; else empty.
 std::string loneInstants(const ExternalTorques& torques) {
   const std::size_t rows = torques.file.rows();
-  const Window window = windowOf(torques);
-  if (window.off == 0 || 20 * window.off > rows) return "";
-  return fmt::format("{} of {} instants {} off, the first at t = {:.6g} s, and the others are right", window.off, rows,
-                     window.off == 1 ? "is" : "are", torques.file.t[window.first]);
+  const Deviating window = deviationOf(torques);
+  if (window.count == 0 || 20 * window.count > rows) return "";
+  return fmt::format("{} of {} instants {} off, the first at t = {:.6g} s, and the others are right", window.count,
+                     rows, window.count == 1 ? "is" : "are", torques.file.t[window.first]);
 }
 
 /// Whether a solver that was asked term by term is right outside the interval, whatever it is asked. `from` and `to`
@@ -195,8 +186,8 @@ bool answersRightOutside(const TorqueResidual& data, double from, double to) {
 /// cause if those instants reveal it.
 Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torques, const TorqueResidual& data) {
   constexpr std::size_t enough = 3, enough_to_explain = 16;
-  const Window window = windowOf(torques);
-  if (window.rows() < enough || 20 * window.off < 19 * window.rows() || 10 * window.rows() > 9 * torques.file.rows())
+  const Deviating window = deviationOf(torques);
+  if (window.span() < enough || 20 * window.count < 19 * window.span() || 10 * window.span() > 9 * torques.file.rows())
     return {};
   const double from = torques.file.t[window.first], to = torques.file.t[window.last];
   const double before = torques.file.t[window.first == 0 ? 0 : window.first - 1];
@@ -212,7 +203,7 @@ Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torqu
   there.motors = data.motors;
   for (std::size_t k = 0; k < data.motions.size(); ++k) {
     if (data.motions[k].t < from || data.motions[k].t > to) continue;
-    there.add(data.motions[k], data.exact[k], data.exact[k] + data.residual[k], data.limit[k]);
+    there.add(data, k);
     if (k < data.commanded) there.commanded = there.motions.size();
   }
   if (there.motions.size() < enough_to_explain) return out;
@@ -267,9 +258,13 @@ Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques, con
   const MotorNames motors = motorNames(*scenario.manipulator);
   Diagnosis out = deviationTexts(motors, torques);
   const std::optional<Explanation> digits = fewDigits(motors, torques, asked);
-  if (out.summary.empty() && digits) out = deviationTexts(motors, inEveryDigit(torques));
+  if (out.summary.empty() && digits) {
+    ExternalTorques printed = torques;  // a solver's answers have every digit
+    for (Vector6d& row : printed.precision) row.setZero();
+    out = deviationTexts(motors, printed);
+  }
   if (out.summary.empty()) return out;
-  if (const std::size_t off = windowOf(torques).off; off > 0)
+  if (const std::size_t off = deviationOf(torques).count; off > 0)
     out.deviation += fmt::format("; off in {} of {} samples, {:.3g} %", off, torques.file.rows(),
                                  100.0 * static_cast<double>(off) / static_cast<double>(torques.file.rows()));
   const std::optional<Explanation> same = sameAnswers(motors, torques, asked);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "model/scenario.h"
@@ -17,11 +19,26 @@ inline double dot(const std::vector<Vector6d>& a, const std::vector<Vector6d>& b
   for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].dot(b[k]);
   return sum;
 }
+inline double norm(const std::vector<Vector6d>& rows) { return std::sqrt(dot(rows, rows)); }
 
 /// Fits all causes to the residual to first order on a few instants. It fits the likely ones there by Gauss–Newton, and
 /// the best on all instants. It drops causes without effect, without a fit, or incompatible with the motion. The order
 /// is that of `causes`.
 std::vector<Hypothesis> fitCauses(const std::vector<Cause>& causes, const TorqueResidual& data);
+
+/// A part of the torques, or the difference that a wrong formula makes.
+struct TorqueTerm {
+  std::string name;
+  std::string term = {}, body = {};    ///< names in the contract; empty if it has none
+  std::optional<double> fixed = {};    ///< known multiple in the residual; empty if it is to be fitted
+  double size = 0;                     ///< size of the physical quantity, if known: gravity, m/s²
+  std::vector<Vector6d> torques = {};  ///< N·m, one for each motion
+};
+
+/// Gravity, inertia, velocity terms, friction and load as parts; formulas as printed or with omitted terms as
+/// differences. The NOC computes them with changed parameters or motions. Terms that throw for this motion are skipped.
+std::vector<TorqueTerm> torqueTerms(const Scenario& scenario, const std::vector<Motion<double>>& motions,
+                                    const std::vector<Vector6d>& exact);
 
 /// Tries every order of the legs with the best signs, in the unit that the torques' size suggests. Returns nullopt if
 /// neither order nor signs differ.

@@ -9,7 +9,6 @@
 
 #include "base/scalar.h"
 #include "validation/causes/fits.h"
-#include "validation/causes/hypothesis_terms.h"
 #include "validation/mistakes/tried_causes.h"
 
 namespace ursula {
@@ -22,8 +21,6 @@ std::string factorText(double c) {
   if (std::abs(c) < 5e-4) return fmt::format("1 {} {:.4g}", c < 0 ? '-' : '+', std::abs(c));
   return fmt::format("{:.6g}", 1 + c);
 }
-
-double norm(const Rows& rows) { return std::sqrt(dot(rows, rows)); }
 
 Rows minus(const Rows& a, const Rows& b, double factor) {
   Rows out(a.size());
@@ -186,16 +183,44 @@ void TorqueResidual::add(const Motion<double>& motion, const Vector6d& right, co
   limit.push_back(within);
 }
 
+void TorqueResidual::add(const TorqueResidual& other, std::size_t row) {
+  motions.push_back(other.motions[row]);
+  exact.push_back(other.exact[row]);
+  residual.push_back(other.residual[row]);
+  limit.push_back(other.limit[row]);
+}
+
 TorqueResidual TorqueResidual::alongMotion() const {
   TorqueResidual out = *this;
   out.motions.resize(commanded);
-  out.exact.resize(commanded);
-  out.residual.resize(commanded);
-  out.limit.resize(commanded);
+  for (auto* rows : {&out.exact, &out.residual, &out.limit}) rows->resize(commanded);
+  return out;
+}
+
+TorqueResidual TorqueResidual::picked(std::size_t most) const {
+  TorqueResidual out;
+  out.motors = motors;
+  const auto pick = [&](std::size_t first, std::size_t last, std::size_t at_most) {
+    const std::size_t rows = last - first, count = std::min(rows, at_most);
+    for (std::size_t i = 0; i < count; ++i) out.add(*this, first + (count == 1 ? 0 : i * (rows - 1) / (count - 1)));
+  };
+  const std::size_t rows = exact.size(), apart = rows - commanded;
+  pick(0, commanded, most - std::min(apart, most / 2));
+  out.commanded = out.exact.size();
+  pick(commanded, rows, most / 2);
   return out;
 }
 
 double TorqueResidual::norm() const { return ursula::norm(residual); }
+
+double TorqueResidual::growth() const {
+  double most = 0, right = 0;
+  for (std::size_t k = 0; k < exact.size(); ++k) {
+    most = std::max(most, found(k).cwiseAbs().maxCoeff());
+    right = std::max(right, exact[k].cwiseAbs().maxCoeff());
+  }
+  return right > 0 ? std::max(1.0, most / right) : 1;
+}
 
 double TorqueResidual::beyond(const std::vector<Vector6d>& left) const {
   double largest = 0;
@@ -242,8 +267,8 @@ std::string unitOf(double factor, const MotorNames& motors) {
 
 std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResidual& data) {
   std::vector<Hypothesis> out;
-  Rows found = data.exact;
-  for (std::size_t k = 0; k < found.size(); ++k) found[k] += data.residual[k];
+  Rows found;
+  for (std::size_t k = 0; k < data.exact.size(); ++k) found.push_back(data.found(k));
   const double growth = data.norm() / std::max(norm(found), 1e-300);
   const auto add = [&out, growth](std::optional<Hypothesis> fitted) {
     if (!fitted || !std::isfinite(fitted->unexplained)) return;
@@ -263,13 +288,13 @@ std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResi
   for (const TorqueTerm& term : terms)
     if (term.fixed) add(scaledTerm(data, term));
   if (data.exact.size() >= 3) add(softLoops(scenario, data));
-  std::vector<Cause> causes = machineCauses(scenario);
-  for (const auto& more :
-       {motionCauses, rateCauses, termCauses, jointCauses, slidingCauses, jacobianCauses, loopCauses})
-    for (Cause& cause : more(scenario)) causes.push_back(std::move(cause));
+  TriedCauses tried{scenario};
+  for (const auto add_group : {addMachineCauses, addMotionCauses, addTermCauses, addJointCauses, addSlidingCauses,
+                               addJacobianCauses, addLoopCauses})
+    add_group(tried);
   if (data.commanded == data.motions.size())  // and the solver was not asked at other instants
-    for (Cause& cause : differenceCauses(scenario, data.instants)) causes.push_back(std::move(cause));
-  for (const Hypothesis& fitted : fitCauses(causes, data)) add(fitted);
+    addDifferenceCauses(data.instants, tried);
+  for (const Hypothesis& fitted : fitCauses(tried.causes, data)) add(fitted);
   if (data.exact.size() >= 3)
     for (const Hypothesis& fitted : fitVectors(scenario, data)) add(fitted);
   return out;

@@ -41,6 +41,9 @@ struct TorqueResidual {
   std::vector<double> instants;  ///< all of the given torques, s; empty if unknown
 
   void add(const Motion<double>& motion, const Vector6d& right, const Vector6d& found, const Vector6d& within);
+  /// Adds a row of `other`.
+  void add(const TorqueResidual& other, std::size_t row);
+  Vector6d found(std::size_t row) const { return exact[row] + residual[row]; }
   /// Only the rows along the commanded motion.
   TorqueResidual alongMotion() const;
   /// At most `most` rows, evenly picked; half of them lie along the motion if a solver also answered separate
@@ -48,6 +51,8 @@ struct TorqueResidual {
   TorqueResidual picked(std::size_t most) const;
 
   double norm() const;
+  /// How many times larger the subject's torques are than the right ones, at least 1; their rounding grows so too.
+  double growth() const;
   /// The largest ratio of an entry of `left`, one row per instant, to its limit.
   double beyond(const std::vector<Vector6d>& left) const;
 };

@@ -1,28 +1,16 @@
-#include "validation/causes/hypothesis_terms.h"
-
 #include <functional>
 
 #include "nocsolver/errors.h"
+#include "validation/causes/fits.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
 namespace {
 
-using Rows = std::vector<Vector6d>;
-using MotionChange = std::function<void(Motion<double>&)>;
+using MotionChange = void (*)(Motion<double>&);
 
-Rows torquesOf(const Subject& subject, const std::vector<Motion<double>>& motions) {
-  Rows out;
-  out.reserve(motions.size());
-  for (const Motion<double>& motion : motions) out.push_back(subject.torques(motion));
-  return out;
-}
-
-Rows difference(const Rows& a, const Rows& b) {
-  Rows out(a.size());
-  for (std::size_t k = 0; k < a.size(); ++k) out[k] = a[k] - b[k];
-  return out;
-}
+/// The efforts of a motion without the term; `right` are those with it.
+using Without = std::function<Vector6d(const Motion<double>&, const Vector6d& right)>;
 
 struct WrongFormula {
   FormulaError formula_error;
@@ -60,69 +48,18 @@ const WrongFormula printed[] = {
     {FormulaError::eq47, "the text by (47) as printed"},
 };
 
-/// Collects terms; it skips those that throw or that the changed machine cannot have.
-class Collector {
- public:
-  Collector(const Scenario& scenario, const std::vector<Motion<double>>& motions, const Rows& exact)
-      : scenario_(scenario), motions_(motions), exact_(exact) {}
+void keep(Motion<double>& /*motion*/) {}
+void doNotAccelerate(Motion<double>& motion) {
+  motion.omega_dot.setZero();
+  motion.p_ddot.setZero();
+}
+void rest(Motion<double>& motion) {
+  doNotAccelerate(motion);
+  motion.omega.setZero();
+  motion.p_dot.setZero();
+}
 
-  std::vector<TorqueTerm> terms() { return std::move(terms_); }
-
-  /// Adds the effect of a change of the machine: what it removes from the torques (`sign` 1) or adds (−1).
-  void addChange(const std::string& name, const std::function<void(ManipulatorParameters&)>& change, double sign) {
-    ManipulatorParameters parameters = scenario_.manipulator->parameters();
-    change(parameters);
-    add(name, {}, sign, [&] { return torquesOf(nocSubject(Manipulator(parameters), scenario_.load), motions_); });
-  }
-
-  void addFormulaError(const WrongFormula& formula, std::optional<double> fixed, double sign) {
-    add(formula.name, fixed, sign, [&] {
-      return torquesOf(
-          wrongNocSubject(*scenario_.manipulator, scenario_.load, WithFormulaErrors(formula.formula_error)), motions_);
-    });
-  }
-
-  /// Describes the term `of` if it was the last added.
-  void describe(const char* of, const char* term, const char* body, double size = 0) {
-    if (terms_.empty() || terms_.back().name != of) return;
-    terms_.back().term = term;
-    terms_.back().body = body;
-    terms_.back().size = size;
-  }
-
-  void addLoad() {
-    if (scenario_.load)
-      add("the load", {}, 1, [&] { return torquesOf(nocSubject(*scenario_.manipulator, nullptr), motions_); });
-  }
-
-  /// Adds τ(from) − τ(to) for changed motions.
-  void addMotionChange(const std::string& name, const MotionChange& from, const MotionChange& to) {
-    add(name, {}, 1, [&] { return difference(exact_, difference(changed(from), changed(to))); });
-  }
-
- private:
-  Rows changed(const MotionChange& change) const {
-    std::vector<Motion<double>> motions = motions_;
-    for (Motion<double>& motion : motions) change(motion);
-    return torquesOf(nocSubject(*scenario_.manipulator, scenario_.load), motions);
-  }
-
-  void add(const std::string& name, std::optional<double> fixed, double sign, const std::function<Rows()>& without) {
-    try {
-      Rows term = difference(exact_, without());
-      for (Vector6d& row : term) row *= sign;
-      terms_.push_back({name, std::move(term), fixed});
-    } catch (const PoseError&) {
-    } catch (const std::invalid_argument&) {
-    }
-  }
-
-  const Scenario& scenario_;
-  const std::vector<Motion<double>>& motions_;
-  const Rows& exact_;
-  std::vector<TorqueTerm> terms_;
-};
-
+void withoutGravity(ManipulatorParameters& machine) { machine.gravity.setZero(); }
 void withoutFriction(ManipulatorParameters& machine) {
   for (Leg& leg : machine.legs) {
     leg.friction = {};
@@ -130,28 +67,19 @@ void withoutFriction(ManipulatorParameters& machine) {
   }
 }
 
-void addParts(Collector& out, double scenario_gravity) {
-  const auto same = [](Motion<double>&) {};
-  const auto unaccelerated = [](Motion<double>& motion) {
-    motion.omega_dot.setZero();
-    motion.p_ddot.setZero();
-  };
-  const auto at_rest = [unaccelerated](Motion<double>& motion) {
-    unaccelerated(motion);
-    motion.omega.setZero();
-    motion.p_dot.setZero();
-  };
-  out.addChange(
-      "gravity", [](ManipulatorParameters& machine) { machine.gravity.setZero(); }, 1);
-  out.describe("gravity", "gravity", "all", scenario_gravity);
-  out.addMotionChange("everything that moves (all but statics)", same, at_rest);
-  out.addMotionChange("the torques of acceleration (inertia)", same, unaccelerated);
-  out.describe("the torques of acceleration (inertia)", "inertia", "all");
-  out.addMotionChange("the torques of velocity (Coriolis, centrifugal, gyroscopic, friction)", unaccelerated, at_rest);
-  out.addChange("friction", withoutFriction, 1);
-  out.describe("friction", "friction", "all");
-  out.addLoad();
-  out.describe("the load", "load", "platform");
+Without by(const Subject& subject) {
+  return [subject](const Motion<double>& motion, const Vector6d& /*right*/) { return subject.torques(motion); };
+}
+
+/// Without τ(from) − τ(to) of two changed motions.
+Without withoutChange(const Scenario& scenario, MotionChange from, MotionChange to) {
+  return
+      [noc = nocSubject(*scenario.manipulator, scenario.load), from, to](Motion<double> motion, const Vector6d& right) {
+        Motion<double> other = motion;
+        from(motion);
+        to(other);
+        return Vector6d(right - (noc.torques(motion) - noc.torques(other)));
+      };
 }
 
 /// Whether the paper's formulas, with their numbers, are those of a leg.
@@ -165,15 +93,44 @@ bool hasPaperLegs(const Manipulator& machine) {
 
 std::vector<TorqueTerm> torqueTerms(const Scenario& scenario, const std::vector<Motion<double>>& motions,
                                     const std::vector<Vector6d>& exact) {
-  Collector out(scenario, motions, exact);
-  addParts(out, scenario.manipulator->gravity().norm());
-  for (const WrongFormula& part : parts) {
-    out.addFormulaError(part, {}, 1);
-    out.describe(part.name, part.term, part.body);
-  }
+  std::vector<TorqueTerm> out;
+  const auto add = [&](TorqueTerm term, const std::function<Without()>& solver) {
+    try {
+      const Without without = solver();
+      const double sign = term.fixed ? -1 : 1;  // what a printed formula adds
+      for (std::size_t k = 0; k < exact.size(); ++k)
+        term.torques.emplace_back(sign * (exact[k] - without(motions[k], exact[k])));
+      out.push_back(std::move(term));
+    } catch (const PoseError&) {
+    } catch (const std::invalid_argument&) {
+    }
+  };
+  const auto machine = [&scenario](void (*change)(ManipulatorParameters&)) {
+    return [&scenario, change] {
+      ManipulatorParameters changed = scenario.manipulator->parameters();
+      change(changed);
+      return by(nocSubject(Manipulator(changed), scenario.load));
+    };
+  };
+  const auto motion = [&scenario](MotionChange from, MotionChange to) {
+    return [&scenario, from, to] { return withoutChange(scenario, from, to); };
+  };
+  const auto formula = [&scenario](const WrongFormula& wrong) {
+    return [&] {
+      return by(wrongNocSubject(*scenario.manipulator, scenario.load, WithFormulaErrors(wrong.formula_error)));
+    };
+  };
+  add({"gravity", "gravity", "all", {}, scenario.manipulator->gravity().norm()}, machine(withoutGravity));
+  add({"everything that moves (all but statics)"}, motion(keep, rest));
+  add({"the torques of acceleration (inertia)", "inertia", "all"}, motion(keep, doNotAccelerate));
+  add({"the torques of velocity (Coriolis, centrifugal, gyroscopic, friction)"}, motion(doNotAccelerate, rest));
+  add({"friction", "friction", "all"}, machine(withoutFriction));
+  if (scenario.load)
+    add({"the load", "load", "platform"}, [&] { return by(nocSubject(*scenario.manipulator, nullptr)); });
+  for (const WrongFormula& part : parts) add({part.name, part.term, part.body}, formula(part));
   if (hasPaperLegs(*scenario.manipulator))
-    for (const WrongFormula& formula : printed) out.addFormulaError(formula, 1.0, -1);
-  return out.terms();
+    for (const WrongFormula& wrong : printed) add({wrong.name, "", "", 1.0}, formula(wrong));
+  return out;
 }
 
 }  // namespace ursula

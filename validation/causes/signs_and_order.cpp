@@ -15,7 +15,7 @@ using Table = double[motor_count][motor_count];
 double mismatch(const TorqueResidual& data, int i, int j, double factor) {
   double sum = 0;
   for (std::size_t k = 0; k < data.exact.size(); ++k) {
-    const double left = data.exact[k](i) + data.residual[k](i) - factor * data.exact[k](j);
+    const double left = data.found(k)(i) - factor * data.exact[k](j);
     sum += left * left;
   }
   return sum;
@@ -62,7 +62,7 @@ std::string permutationText(const TorqueResidual& data, const std::vector<int>& 
 double unitFactor(const TorqueResidual& data) {
   double found = 0, exact = 0;
   for (std::size_t k = 0; k < data.exact.size(); ++k) {
-    found += (data.exact[k] + data.residual[k]).squaredNorm();
+    found += data.found(k).squaredNorm();
     exact += data.exact[k].squaredNorm();
   }
   const double factor = exact > 0 ? std::sqrt(found / exact) : 1;
@@ -88,7 +88,7 @@ double beyondOf(const TorqueResidual& data, const std::vector<int>& from, const 
   for (std::size_t k = 0; k < left.size(); ++k)
     for (int i = 0; i < motor_count; ++i) {
       const int j = from[static_cast<std::size_t>(i)];
-      left[k](i) = data.exact[k](i) + data.residual[k](i) - unit * sign[i][j] * data.exact[k](j);
+      left[k](i) = data.found(k)(i) - unit * sign[i][j] * data.exact[k](j);
     }
   return data.beyond(left);
 }

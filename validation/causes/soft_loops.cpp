@@ -45,28 +45,27 @@ class SoftFit {
         legs_.back().push_back(softLeg(leg, motion));
     }
     for (std::size_t k = 0; k < left_.size(); ++k)
-      for (int m = 0; m < motor_count; ++m) left_[k](m) = found(k, m) - leg(k, m).open(motors_[at(m)].joint);
+      for (int m = 0; m < motor_count; ++m) left_[k](m) = data.found(k)(m) - leg(k, m).open(motors_[at(m)].joint);
     masses_.resize(at(scenario.manipulator->legCount()));
   }
 
   /// Returns false if open loops explain all, or if a leg's closure has no effect or would push its gap open.
   bool fit() {
-    double most = 0, right = 0;
     std::vector<double> over(masses_.size()), under(masses_.size());
     for (std::size_t k = 0; k < left_.size(); ++k)
       for (int m = 0; m < motor_count; ++m) {
         const std::size_t i = at(motors_[at(m)].leg);
         over[i] += perKilogram(k, m) * left_[k](m);
         under[i] += perKilogram(k, m) * perKilogram(k, m);
-        most = std::max(most, std::abs(found(k, m)));
-        right = std::max(right, std::abs(data_.exact[k](m)));
       }
-    grown_ = std::max(1.0, most / right);
+    grown_ = data_.growth();
     if (data_.beyond(left_) <= grown_) return false;
     for (std::size_t i = 0; i < masses_.size(); ++i) {
       if (!(under[i] > 0) || !(over[i] > 0)) return false;
       masses_[i] = over[i] / under[i];
     }
+    double right = 0;
+    for (const Vector6d& row : data_.exact) right = std::max(right, row.cwiseAbs().maxCoeff());
     for (std::size_t k = 0; k < left_.size(); ++k)
       for (int m = 0; m < motor_count; ++m) {
         const double mass = masses_[at(motors_[at(m)].leg)];
@@ -78,20 +77,17 @@ class SoftFit {
 
   Hypothesis found() const {
     const auto [least, most] = std::minmax_element(masses_.begin(), masses_.end());
-    double squares = 0;
-    for (const Vector6d& row : left_) squares += row.squaredNorm();
     Hypothesis out{
         fmt::format("soft constraints of the loops, read at the motors: the loops left open, and at each leg "
                     "{:.4g} to {:.4g} kg times the acceleration of its gap without the rate of the Jacobian",
                     *least, *most),
-        std::sqrt(squares) / data_.norm(), static_cast<int>(masses_.size())};
+        norm(left_) / data_.norm(), static_cast<int>(masses_.size())};
     out.beyond = data_.beyond(left_) / grown_;  // rounding grows with what is rounded
     out.named = NamedCause{CauseKind::closure, "soft", "all"};
     return out;
   }
 
  private:
-  double found(std::size_t k, int m) const { return data_.exact[k](m) + data_.residual[k](m); }
   const SoftLeg& leg(std::size_t k, int m) const { return legs_[k][at(motors_[at(m)].leg)]; }
   double perKilogram(std::size_t k, int m) const { return leg(k, m).per_kilogram(motors_[at(m)].joint); }
 

@@ -29,7 +29,7 @@ class Shift {
     for (std::size_t k = 0; k < data_.exact.size(); ++k) {
       const double t = data_.motions[k].t + dt;
       if (!(t - step >= 0 && t + step <= duration)) continue;
-      const Vector6d found = data_.exact[k] + data_.residual[k], shifted = torques(t);
+      const Vector6d found = data_.found(k), shifted = torques(t);
       const Vector6d slope = (torques(t + step) - torques(t - step)) / (2 * step);
       left += (found - shifted).squaredNorm();
       beyond = std::max(beyond, (found - shifted).cwiseAbs().cwiseQuotient(data_.limit[k]).maxCoeff());

@@ -7,7 +7,7 @@
 #include "model/machine_numbers.h"
 #include "nocsolver/errors.h"
 #include "validation/causes/fits.h"
-#include "validation/mistakes/machine_collector.h"
+#include "validation/mistakes/tried_causes.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -75,7 +75,7 @@ class VectorFit {
       const Subject noc = nocSubject(Manipulator(machine), scenario_.load);
       for (Eigen::Index k = 0; k < rows; ++k) {
         const auto i = static_cast<std::size_t>(k);
-        out.segment<motor_count>(motor_count * k) = data_.exact[i] + data_.residual[i] - noc.torques(data_.motions[i]);
+        out.segment<motor_count>(motor_count * k) = data_.found(i) - noc.torques(data_.motions[i]);
       }
     } catch (const PoseError&) {
     } catch (const std::invalid_argument&) {
@@ -127,7 +127,7 @@ std::string vectorText(const Entries& entries, const ManipulatorParameters& mach
 }
 
 /// The straight way to the fitted change, which is at x = 1.
-void addVector(const ManipulatorParameters& machine, const Entries& entries, const VectorFit& fit, MachineCauses& out) {
+void addVector(const ManipulatorParameters& machine, const Entries& entries, const VectorFit& fit, TriedCauses& out) {
   const Vector3d change = fit.change();
   const char* but = fit.rank() < 3 ? " (but for a part without effect)" : "";
   const MachineNumber& first = entries.front();
@@ -160,7 +160,7 @@ std::vector<Hypothesis> fitVectors(const Scenario& scenario, const TorqueResidua
     if (!(fit.unexplained() < worth_fitting)) continue;
     fit.improve(12);
     if (!(fit.unexplained() < may_remain)) continue;
-    MachineCauses found(scenario);
+    TriedCauses found{scenario};
     addVector(machine, entries, fit, found);
     for (Hypothesis& each : fitCauses(found.causes, data)) {
       each.free_numbers = fit.rank();

@@ -8,12 +8,10 @@
 
 #include "validation/limits/conditioning.h"
 #include "validation/mistakes/tried_causes.h"
-#include "validation/subject/subject.h"
 
 namespace ursula {
 namespace {
 
-using Motions = std::vector<Motion<double>>;
 template <int size>
 using Series = std::vector<Eigen::Matrix<double, size, 1>>;
 
@@ -115,13 +113,14 @@ Table differenced(Table table, const Taken& taken, Scheme scheme) {
 /// Rounding of the efforts, N·m, from that of differences over `step`: of a pose twice, of a velocity, of an instant.
 double roundingOf(const Scenario& scenario, const Motion<double>& motion, const Taken& taken, double step) {
   constexpr double units = 8 * std::numeric_limits<double>::epsilon();
-  const Subject noc = nocSubject(withoutStroke(*scenario.manipulator), scenario.load);
+  const Manipulator machine = withoutStroke(*scenario.manipulator);
+  const Subject noc = nocSubject(machine, scenario.load);
   const double velocity = motion.p_dot.norm() + motion.omega.norm();
   const double acceleration = motion.p_ddot.norm() + motion.omega_dot.norm();
   double little = units * (velocity + acceleration * motion.t) / step;
   if (taken.velocity) little += units * (1 + motion.p.norm() + velocity * motion.t) / (step * step);
   const Vector6d right = noc.torques(motion);
-  double out = ConditioningProbe(withoutStroke(*scenario.manipulator), scenario.load).at(motion).torqueRounding();
+  double out = ConditioningProbe(machine, scenario.load).at(motion).torqueRounding();
   for (int k = 0; k < 3; ++k)
     for (Vector3d Motion<double>::*of : {&Motion<double>::p_ddot, &Motion<double>::omega_dot}) {
       Motion<double> near = motion;
@@ -133,32 +132,21 @@ double roundingOf(const Scenario& scenario, const Motion<double>& motion, const 
 
 }  // namespace
 
-std::vector<Cause> differenceCauses(const Scenario& scenario, const std::vector<double>& instants) {
+void addDifferenceCauses(const std::vector<double>& instants, TriedCauses& out) {
   constexpr std::size_t fewest = 5, most = 20000;
-  std::vector<Cause> out;
-  const std::size_t count = instants.size();
-  if (count < fewest || count > most) return out;
-  const auto right = std::make_shared<const Table>(scenario, instants);
-  const double step = right->shortest();
-  if (!(step > 0)) return out;
+  if (instants.size() < fewest || instants.size() > most) return;
+  const Table right(out.scenario, instants);
+  const double step = right.shortest();
+  if (!(step > 0)) return;
   for (const Taken& taken : all_taken)
     for (const auto& [scheme, words] : schemes) {
-      const auto table = std::make_shared<const Table>(differenced(*right, taken, scheme));
-      out.push_back(fixedCause({fmt::format("{} between the given instants, {}", taken.words, words)},
-                               [&scenario, table](const Motions& motions) {
-                                 const Subject noc = nocSubject(withoutStroke(*scenario.manipulator), scenario.load);
-                                 std::vector<Vector6d> torques;
-                                 for (Motion<double> motion : motions) {
-                                   table->put(motion);
-                                   torques.push_back(noc.torques(motion));
-                                 }
-                                 return torques;
-                               }));
-      out.back().rounding = [&scenario, &taken, step](const Motion<double>& motion) {
+      const auto table = std::make_shared<const Table>(differenced(right, taken, scheme));
+      Cause& cause = out.addReading(CauseName(fmt::format("{} between the given instants, {}", taken.words, words)),
+                                    [table](Motion<double>& motion) { table->put(motion); });
+      cause.rounding = [&scenario = out.scenario, &taken, step](const Motion<double>& motion) {
         return roundingOf(scenario, motion, taken, step);
       };
     }
-  return out;
 }
 
 }  // namespace ursula

@@ -3,65 +3,57 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-#include <utility>
 
-#include "validation/mistakes/machine_collector.h"
+#include "validation/mistakes/tried_causes.h"
 
 namespace ursula {
 namespace {
 
 using Machine = ManipulatorParameters;
 
-/// `expected` and `found` are the excess over the scenario's.
-NamedCause moreFriction(const std::string& key, const char* unit, double x, double deviation) {
-  NamedCause out{CauseKind::parameter, "friction", "legs", "manipulator.leg_defaults." + key, unit, 0, x, deviation};
-  return out;
-}
+constexpr Coordinate coordinates[] = {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d};
 
-/// The coefficients of one law on the legs that have the coordinate.
-std::vector<double> coefficients(const Manipulator& machine, Coordinate coordinate, JointFriction& (*law)(Leg&)) {
-  std::vector<double> out;
-  for (Leg leg : machine.parameters().legs) {
+/// A law of friction with its key in a scenario and the units of its coefficients.
+struct Law {
+  const char *words, *key, *of_angles, *of_d;
+  JointFriction& (*in)(Leg&);
+};
+const Law laws[] = {
+    {"viscous", "friction", "N m s/rad", "N s/m", [](Leg& leg) -> JointFriction& { return leg.friction; }},
+    {"Coulomb", "coulomb", "N m", "N", [](Leg& leg) -> JointFriction& { return leg.coulomb; }}};
+
+/// Fits the coefficients of one law on every leg that has the coordinate. If all are one number of the machine,
+/// TriedCauses::addTied fits it.
+void addMore(const Law& law, Coordinate coordinate, TriedCauses& out) {
+  std::vector<double> given;
+  for (Leg leg : out.machine.parameters().legs) {
     const auto& has = rowOf(leg.kind).coordinates;
-    if (std::find(has.begin(), has.end(), coordinate) != has.end()) out.push_back(law(leg).on(coordinate));
+    if (std::find(has.begin(), has.end(), coordinate) != has.end()) given.push_back(law.in(leg).on(coordinate));
   }
-  return out;
-}
-
-/// Fits the coefficients of one law, `key`, on every leg that has the coordinate. If all are one number of the machine,
-/// machine_collector.cpp fits it.
-void addMore(const Manipulator& machine, const char* words, const std::string& key, const char* unit,
-             Coordinate coordinate, JointFriction& (*law)(Leg&), MachineCauses& out) {
-  const std::vector<double> given = coefficients(machine, coordinate, law);
   const auto is_first = [&given](double each) { return each == given.front(); };
   if (given.empty() || (given.front() != 0 && std::all_of(given.begin(), given.end(), is_first))) return;
-  const std::string joint = nameOf(coordinate);
+  const char* unit = slides(coordinate) ? law.of_d : law.of_angles;
   out.addFitted(
-      [coordinate, law](Machine& changed, double x) {
-        for (Leg& leg : changed.legs) law(leg).on(coordinate) += x;
+      [coordinate, &law](Machine& changed, double x) {
+        for (Leg& leg : changed.legs) law.in(leg).on(coordinate) += x;
       },
-      [words, joint, unit](double x, double deviation) {
-        return fmt::format("{} friction on every {} of {} {} more than the scenario's", words, joint,
+      [&law, coordinate, unit](double x, double deviation) {
+        return fmt::format("{} friction on every {} of {} {} more than the scenario's", law.words, nameOf(coordinate),
                            withDeviation(x, deviation), unit);
       },
-      [key, joint, unit](double x, double deviation) { return moreFriction(key + "." + joint, unit, x, deviation); });
+      [path = fmt::format("manipulator.leg_defaults.{}.{}", law.key, nameOf(coordinate)), unit](double x,
+                                                                                                double deviation) {
+        return NamedCause{CauseKind::parameter, "friction", "legs", path, unit, 0, x, deviation};
+      });
 }
 
-/// Friction that the scenario lacks.
-void addFriction(const Manipulator& machine, MachineCauses& out) {
-  for (const Coordinate coordinate : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d}) {
-    addMore(
-        machine, "viscous", "friction", slides(coordinate) ? "N s/m" : "N m s/rad", coordinate,
-        [](Leg& leg) -> JointFriction& { return leg.friction; }, out);
-    addMore(
-        machine, "Coulomb", "coulomb", slides(coordinate) ? "N" : "N m", coordinate,
-        [](Leg& leg) -> JointFriction& { return leg.coulomb; }, out);
-  }
+void addSmoothing(TriedCauses& out) {
   const NamedCause speed{CauseKind::parameter, "friction", "legs", "manipulator.leg_defaults.coulomb.smoothing_speed"};
-  const auto has = [&machine](auto&& one) {
-    return std::any_of(machine.parameters().legs.begin(), machine.parameters().legs.end(), one);
+  const auto has = [&out](auto&& one) {
+    const std::vector<Leg>& legs = out.machine.parameters().legs;
+    return std::any_of(legs.begin(), legs.end(), one);
   };
-  // Of angles or of d alone, it is one number, which machine_collector.cpp fits.
+  // Of angles or of d alone, it is one number, which TriedCauses::addTied fits.
   if (has([](const Leg& leg) { return leg.coulomb.d != 0; }) &&
       has([](const Leg& leg) { return leg.coulomb.phi != 0 || leg.coulomb.psi != 0 || leg.coulomb.theta != 0; }))
     out.addFitted(
@@ -74,89 +66,76 @@ void addFriction(const Manipulator& machine, MachineCauses& out) {
                              withDeviation(std::exp(x), deviation * std::exp(x)));
         },
         [speed](double, double) { return speed; });
-  out.addFixed({"Coulomb friction without smoothing", speed}, [](Machine& changed) {
+  out.addMachine({"Coulomb friction without smoothing", speed}, [](Machine& changed) {
     constexpr double sharp_speed = 1e-200;  // every speed is far above it
     for (Leg& leg : changed.legs) leg.coulomb.smoothing_speed = leg.coulomb.sliding_speed = sharp_speed;
   });
 }
 
-/// The laws with their keys.
-const std::pair<const char*, const JointFriction& (*)(const Leg&)> laws[] = {
-    {"friction", [](const Leg& leg) -> const JointFriction& { return leg.friction; }},
-    {"coulomb", [](const Leg& leg) -> const JointFriction& { return leg.coulomb; }}};
+/// A part of the scenario's friction: whether it has the law's coefficient of one of the leg's joints.
+struct Part {
+  std::string words;
+  std::function<bool(const Law& law, const Leg& leg, std::size_t joint)> has;
 
-/// A choice of a leg's joints.
-enum class Joints { all, driven, passive };
+  void forEach(Machine& machine, const std::function<void(const Law&, Coordinate, double& coefficient)>& visit) const {
+    for (Leg& leg : machine.legs)
+      for (std::size_t j = 0; j < 3; ++j)
+        for (const Law& law : laws) {
+          const Coordinate coordinate = rowOf(leg.kind).coordinates[j];
+          if (has(law, leg, j)) visit(law, coordinate, law.in(leg).on(coordinate));
+        }
+  }
 
-void clear(JointFriction& law, const Leg& leg, Joints which) {
-  for (std::size_t j = 0; j < 3; ++j)
-    if (which == Joints::all || leg.actuated[j] == (which == Joints::driven))
-      law.on(rowOf(leg.kind).coordinates[j]) = 0;
-}
+  /// The start of the paths of all its coefficients; empty if all are zero.
+  std::string path(Machine machine) const {
+    std::string shared;
+    forEach(machine, [&shared](const Law& law, Coordinate coordinate, double coefficient) {
+      if (coefficient == 0) return;
+      const std::string path = fmt::format("manipulator.leg_defaults.{}.{}", law.key, nameOf(coordinate));
+      if (shared.empty()) shared = path;
+      while ((path + ".").rfind(shared + ".", 0) != 0) shared.erase(shared.rfind('.'));
+    });
+    return shared;
+  }
+};
 
-bool rubs(const Machine& machine, bool viscous, bool coulomb, Joints but_for) {
-  return std::any_of(machine.legs.begin(), machine.legs.end(), [&](Leg leg) {
-    clear(leg.friction, leg, but_for);
-    clear(leg.coulomb, leg, but_for);
-    return (viscous && leg.friction.any()) || (coulomb && leg.coulomb.any());
-  });
-}
-
-/// The start of the paths of all coefficients that `change` clears.
-std::string pathOfCleared(const Machine& machine, const std::function<void(Machine&)>& change) {
-  Machine cleared = machine;
-  change(cleared);
-  std::string shared;
-  for (std::size_t i = 0; i < machine.legs.size(); ++i)
-    for (const Coordinate coordinate : rowOf(machine.legs[i].kind).coordinates)
-      for (const auto& [key, law] : laws) {
-        if (law(machine.legs[i]).on(coordinate) == law(cleared.legs[i]).on(coordinate)) continue;
-        const std::string path = fmt::format("manipulator.leg_defaults.{}.{}", key, nameOf(coordinate));
-        if (shared.empty()) shared = path;
-        while ((path + ".").rfind(shared + ".", 0) != 0) shared.erase(shared.rfind('.'));
-      }
-  return shared;
-}
-
-/// Omits parts of the scenario's friction if it has others too, or turns their sign; all of it is a term of its own.
-void addPartsOfFriction(const Machine& machine, MachineCauses& out) {
-  const auto add = [&](const std::string& text, const std::function<void(Machine&)>& change) {
-    const std::string path = pathOfCleared(machine, change);
-    if (path.empty()) return;
+/// Omits each part, or turns its sign, if all of them have friction. All friction is a term of its own.
+void addParts(const std::vector<Part>& parts, TriedCauses& out) {
+  const auto is_empty = [&out](const Part& part) { return part.path(out.machine.parameters()).empty(); };
+  if (std::any_of(parts.begin(), parts.end(), is_empty)) return;
+  for (const Part& part : parts)
     for (const auto& [way, kind, times] :
          {std::tuple(" left out", CauseKind::missing_term, 1.0), {" with the wrong sign", CauseKind::sign, 2.0}})
-      out.addFixed({text + way, NamedCause{kind, "friction", "all", path}}, change, times);
-  };
-  const auto addLaws = [&](const char* text, bool viscous, bool coulomb, Joints which) {
-    add(text, [=](Machine& changed) {
-      for (Leg& leg : changed.legs) {
-        if (viscous) clear(leg.friction, leg, which);
-        if (coulomb) clear(leg.coulomb, leg, which);
-      }
-    });
-  };
-  const auto any = [&](bool viscous, bool coulomb) {
-    return rubs(machine, viscous, coulomb, Joints::driven) || rubs(machine, viscous, coulomb, Joints::passive);
-  };
-  if (any(true, false) && any(false, true)) {
-    addLaws("viscous friction", true, false, Joints::all);
-    addLaws("Coulomb friction", false, true, Joints::all);
-  }
-  if (rubs(machine, true, true, Joints::driven) && rubs(machine, true, true, Joints::passive)) {
-    addLaws("friction of the joints without motors", true, true, Joints::passive);
-    addLaws("friction of the driven joints", true, true, Joints::driven);
-  }
-  for (const Coordinate coordinate : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d})
-    add(fmt::format("friction on every {}", nameOf(coordinate)), [coordinate](Machine& changed) {
-      for (Leg& leg : changed.legs) leg.friction.on(coordinate) = leg.coulomb.on(coordinate) = 0;
-    });
+      out.addMachine(
+          {part.words + way, {kind, "friction", "all", part.path(out.machine.parameters())}},
+          [part](Machine& changed) {
+            part.forEach(changed, [](const Law&, Coordinate, double& coefficient) { coefficient = 0; });
+          },
+          times);
 }
 
 }  // namespace
 
-void addFrictionCauses(const Manipulator& machine, MachineCauses& out) {
-  addFriction(machine, out);
-  addPartsOfFriction(machine.parameters(), out);
+void addFrictionCauses(TriedCauses& out) {
+  for (const Coordinate coordinate : coordinates)
+    for (const Law& law : laws) addMore(law, coordinate, out);
+  addSmoothing(out);
+  const auto of_law = [](const Law& wanted) {
+    return [&wanted](const Law& law, const Leg&, std::size_t) { return &law == &wanted; };
+  };
+  const auto of_joints = [](bool driven) {
+    return [driven](const Law&, const Leg& leg, std::size_t joint) { return leg.actuated[joint] == driven; };
+  };
+  addParts({{"viscous friction", of_law(laws[0])}, {"Coulomb friction", of_law(laws[1])}}, out);
+  addParts(
+      {{"friction of the joints without motors", of_joints(false)}, {"friction of the driven joints", of_joints(true)}},
+      out);
+  for (const Coordinate coordinate : coordinates)
+    addParts({{fmt::format("friction on every {}", nameOf(coordinate)),
+               [coordinate](const Law&, const Leg& leg, std::size_t joint) {
+                 return rowOf(leg.kind).coordinates[joint] == coordinate;
+               }}},
+             out);
 }
 
 }  // namespace ursula

@@ -6,119 +6,108 @@
 #include <tuple>
 #include <utility>
 
-#include "validation/mistakes/cause.h"
 #include "validation/mistakes/tried_causes.h"
-#include "validation/subject/body_terms.h"
 
 namespace ursula {
 namespace {
 
-const Leg& legOf(const Scenario& scenario, std::size_t leg) { return scenario.manipulator->leg(static_cast<int>(leg)); }
-
-/// The coordinates' rates of one leg.
-Vector3d ratesOf(const MachineTerms& machine, const OpenLeg& leg) {
+/// Speeds where rates belong: friction that never changes its sign.
+Vector6d withSpeeds(const MachineTerms& machine, bool viscous, bool coulomb) {
   Vector6d twist = machine.platform.twist;
   twist.tail<3>() -= machine.platform.omega().cross(machine.rho);
-  return leg.J.lu().solve(Vector3d(leg.P * twist));
-}
-
-/// Speeds where rates belong: friction that never changes its sign.
-Vector6d withSpeeds(const Scenario& scenario, const MachineTerms& machine, bool viscous, bool coulomb) {
   Vector6d at_P = Vector6d::Zero();
-  for (std::size_t i = 0; i < machine.legs.size(); ++i) {
-    const Leg& leg = legOf(scenario, i);
-    const Vector3d rates = ratesOf(machine, machine.legs[i]);
+  for (const OpenLeg& leg : machine.legs) {
+    const Vector3d rates = leg.J.lu().solve(Vector3d(leg.P * twist));
+    const CoulombFriction& dry = leg.numbers.coulomb;
     Vector3d more = Vector3d::Zero();
     for (int j = 0; j < 3; ++j) {
-      const Coordinate coordinate = rowOf(leg.kind).coordinates[static_cast<std::size_t>(j)];
+      const Coordinate coordinate = rowOf(leg.numbers.kind).coordinates[static_cast<std::size_t>(j)];
       const double back = std::min(rates(j), 0.0);
-      if (viscous) more(j) -= 2 * leg.friction.on(coordinate) * back;
-      if (coulomb) more(j) -= 2 * leg.coulomb.on(coordinate) * std::tanh(back / leg.coulomb.speedOf(coordinate));
+      if (viscous) more(j) -= 2 * leg.numbers.friction.on(coordinate) * back;
+      if (coulomb) more(j) -= 2 * dry.on(coordinate) * std::tanh(back / dry.speedOf(coordinate));
     }
-    at_P += machine.legs[i].P.transpose() * machine.legs[i].J.transpose().lu().solve(more);
+    at_P += leg.atP(more);
   }
   return machine.T_P.transpose() * at_P;
 }
 
-void addSpeeds(const Scenario& scenario, EffortCauses& out) {
+void addSpeeds(TriedCauses& out) {
   for (const auto& [what, viscous, coulomb] :
        {std::tuple("viscous friction", true, false), {"Coulomb friction", false, true}, {"friction", true, true}})
-    out.add(std::string(what) + " of the rates' sizes, without their signs", {CauseKind::sign, "friction", "all"},
-            [&scenario, viscous = viscous, coulomb = coulomb](const MachineTerms& machine) {
-              return withSpeeds(scenario, machine, viscous, coulomb);
-            });
+    out.addEfforts(
+        {std::string(what) + " of the rates' sizes, without their signs", {CauseKind::sign, "friction", "all"}},
+        [viscous = viscous, coulomb = coulomb](const MachineTerms& machine) {
+          return withSpeeds(machine, viscous, coulomb);
+        });
 }
 
 /// What the rotors' accelerations lack.
-void addRotorAccelerations(const Scenario& scenario, EffortCauses& out) {
-  const std::pair<const char*, std::function<Vector3d(const OpenLeg&)>> left_out[] = {
-      {"of the legs", [](const OpenLeg& leg) { return leg.bias; }},
-      {"of legs and platform", [](const OpenLeg& leg) { return Vector3d(leg.bias - leg.platform_bias); }}};
-  for (const auto& [whose, off] : left_out)
+void addRotorAccelerations(TriedCauses& out) {
+  for (const auto& [whose, of_platform] : {std::pair("of the legs", false), {"of legs and platform", true}})
     for (const auto& [way, times] : {std::pair("without", 1.0), {"with the wrong sign of", 2.0}})
-      out.add(std::string("the rotors' accelerations ") + way + " the rate of the Jacobian " + whose,
-              {CauseKind::closure, "bias", "all"}, [&scenario, off = off, times = times](const MachineTerms& machine) {
-                Vector6d change;
-                const Motors& motors = scenario.manipulator->motors();
-                for (int m = 0; m < motor_count; ++m) {
-                  const Motor& motor = motors[static_cast<std::size_t>(m)];
-                  const OpenLeg& leg = machine.legs[static_cast<std::size_t>(motor.leg)];
-                  const double rotor = scenario.manipulator->leg(motor.leg).rotor_inertia.on(motor.coordinate);
-                  change(m) = times * rotor * leg.J.lu().solve(off(leg))(motor.joint);
-                }
-                return change;
-              });
+      out.addEfforts({std::string("the rotors' accelerations ") + way + " the rate of the Jacobian " + whose,
+                      {CauseKind::closure, "bias", "all"}},
+                     [of_platform = of_platform, times = times](const MachineTerms& machine) {
+                       Vector6d change;
+                       for (int m = 0; m < motor_count; ++m) {
+                         const Motor& motor = machine.motors[static_cast<std::size_t>(m)];
+                         const OpenLeg& leg = machine.legs[static_cast<std::size_t>(motor.leg)];
+                         const Vector3d off = of_platform ? Vector3d(leg.bias - leg.platform_bias) : leg.bias;
+                         const double rotor = leg.numbers.rotor_inertia.on(motor.coordinate);
+                         change(m) = times * rotor * leg.J.lu().solve(off)(motor.joint);
+                       }
+                       return change;
+                     });
 }
 
-/// A leg's forces by a wrong inverse of its own Jacobian, 3 × 3.
-void addLegJacobians(const Scenario& scenario, EffortCauses& out) {
+/// The change of the efforts if a leg's forces come by a wrong inverse of its own Jacobian, 3 × 3.
+Vector6d throughLegJacobians(const MachineTerms& machine, Matrix3d (*inverse)(const Matrix3d& J)) {
+  Vector6d at_P = machine.platform_wrench;
+  std::vector<Eigen::Matrix<double, 6, 3>> of_legs;
+  for (const OpenLeg& leg : machine.legs) {
+    of_legs.emplace_back(leg.P.transpose() * inverse(leg.J));
+    at_P += of_legs.back() * leg.efforts;
+  }
+  Matrix6d forces;
+  for (int m = 0; m < motor_count; ++m) {
+    const Motor& motor = machine.motors[static_cast<std::size_t>(m)];
+    forces.col(m) = of_legs[static_cast<std::size_t>(motor.leg)].col(motor.joint);
+  }
+  return forces.lu().solve(at_P) - machine.T_P.transpose() * machine.forceAtP();
+}
+
+void addLegJacobians(TriedCauses& out) {
   const std::pair<const char*, Matrix3d (*)(const Matrix3d&)> wrong[] = {
       {"the Jacobian", [](const Matrix3d& J) -> Matrix3d { return J; }},
       {"the transposed Jacobian", [](const Matrix3d& J) -> Matrix3d { return J.transpose(); }},
       {"the inverse Jacobian", [](const Matrix3d& J) -> Matrix3d { return J.inverse(); }}};
   for (const auto& [what, of] : wrong)
-    out.add(std::string(what) + " of each leg where its inverse transposed belongs", {CauseKind::jacobian, "", "legs"},
-            [&scenario, of = of](const MachineTerms& machine) {
-              Matrix6d forces;
-              Vector6d at_P = machine.platform_wrench;
-              std::vector<Eigen::Matrix<double, 6, 3>> of_legs;
-              for (const OpenLeg& leg : machine.legs) {
-                of_legs.emplace_back(leg.P.transpose() * of(leg.J));
-                at_P += of_legs.back() * leg.efforts;
-              }
-              const Motors& motors = scenario.manipulator->motors();
-              for (int m = 0; m < motor_count; ++m) {
-                const Motor& motor = motors[static_cast<std::size_t>(m)];
-                forces.col(m) = of_legs[static_cast<std::size_t>(motor.leg)].col(motor.joint);
-              }
-              return Vector6d(forces.lu().solve(at_P) - machine.T_P.transpose() * machine.forceAtP());
-            });
+    out.addEfforts(
+        {std::string(what) + " of each leg where its inverse transposed belongs", {CauseKind::jacobian, "", "legs"}},
+        [of = of](const MachineTerms& machine) { return throughLegJacobians(machine, of); });
 }
 
 /// (A Aᵀ + x 1)⁻¹ A for the inverse of Aᵀ = T_P⁻ᵀ.
-Cause damped(const Scenario& scenario) {
-  Cause out;
-  out.torques = [&scenario](double x, const std::vector<Motion<double>>& motions) {
+void addDamped(TriedCauses& out) {
+  Cause cause;
+  cause.solver = [&scenario = out.scenario](double x) {
     const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
-    std::vector<Vector6d> efforts;
-    for (const Motion<double>& motion : motions) {
-      const MachineTerms machine = machineTerms(*scenario.manipulator, scenario.load, motion);
-      const Matrix6d A = machine.T_P.inverse();
+    return [&scenario, noc, x](const Motion<double>& motion) {
+      const Matrix6d A = machineTerms(*scenario.manipulator, scenario.load, motion).T_P.inverse();
       const Matrix6d damping = A * A.transpose() + x * Matrix6d::Identity();
       const Vector6d right = noc.torques(motion);
-      efforts.push_back(right - x * damping.ldlt().solve(right));
-    }
-    return efforts;
+      return Vector6d(right - x * damping.ldlt().solve(right));
+    };
   };
-  out.words = [](double x, double deviation) {
+  cause.words = [](double x, double deviation) {
     return "the inverse of the transposed Jacobian damped by " + withDeviation(x, deviation) + " times the unit matrix";
   };
-  out.named = [](double x, double) -> std::optional<NamedCause> {
+  cause.is_possible = [](double x) { return x > 0; };
+  cause.named = [](double x, double) -> std::optional<NamedCause> {
     if (!(x > 0)) return std::nullopt;
     return NamedCause{CauseKind::jacobian, "", "all"};
   };
-  out.is_possible = [](double x) { return x > 0; };
-  return out;
+  out.causes.push_back(cause);
 }
 
 /// How a solver takes a distal link's rates relative to the proximal link.
@@ -128,12 +117,12 @@ struct Relative {
   bool centre;        ///< in the mass centre's acceleration too
 };
 
-Vector6d withRelativeRates(const Scenario& scenario, const MachineTerms& machine, const Relative& way) {
+Vector6d withRelativeRates(const MachineTerms& machine, const Relative& way) {
   Vector6d change = Vector6d::Zero();
-  for (std::size_t i = 0; i < machine.legs.size(); ++i) {
-    const LegKindRow& kind = rowOf(scenario.manipulator->leg(static_cast<int>(i)).kind);
+  for (const OpenLeg& leg : machine.legs) {
+    const LegKindRow& kind = rowOf(leg.numbers.kind);
     if (kind.isTelescopic() || kind.hasCarriage()) continue;  // those do not turn against each other, or not both turn
-    const BodyTerms &first = machine.proximal[i], &link = machine.distal[i];
+    const BodyTerms &first = leg.proximal, &link = leg.distal;
     BodyTerms other = link;
     if (way.omega) other.twist.head<3>() -= first.omega();
     if (way.rate) other.twist_rate.head<3>() -= first.twist_rate.head<3>();
@@ -148,7 +137,7 @@ Vector6d withRelativeRates(const Scenario& scenario, const MachineTerms& machine
   return change;
 }
 
-void addRelativeRates(const Scenario& scenario, EffortCauses& out) {
+void addRelativeRates(TriedCauses& out) {
   for (const auto& [words, omega, rate] : {std::tuple("angular velocity and acceleration", true, true),
                                            {"angular velocity", true, false},
                                            {"angular acceleration", false, true}})
@@ -156,24 +145,22 @@ void addRelativeRates(const Scenario& scenario, EffortCauses& out) {
       for (const bool centre : {false, true}) {
         if (joints_alone && !rate) continue;
         const Relative way{omega, rate, joints_alone, centre};
-        out.add(std::string(words) + " of the distal links relative to the proximal ones" +
-                    (joints_alone ? ", without the turning of the joints' axes" : "") +
-                    (centre ? "" : ", in the moments alone"),
-                {CauseKind::frame, omega ? "angular_velocity" : "angular_acceleration", "distal"},
-                [&scenario, way](const MachineTerms& machine) { return withRelativeRates(scenario, machine, way); });
+        out.addEfforts({std::string(words) + " of the distal links relative to the proximal ones" +
+                            (joints_alone ? ", without the turning of the joints' axes" : "") +
+                            (centre ? "" : ", in the moments alone"),
+                        {CauseKind::frame, omega ? "angular_velocity" : "angular_acceleration", "distal"}},
+                       [way](const MachineTerms& machine) { return withRelativeRates(machine, way); });
       }
 }
 
 }  // namespace
 
-std::vector<Cause> jointCauses(const Scenario& scenario) {
-  EffortCauses out(scenario);
-  addSpeeds(scenario, out);
-  addRotorAccelerations(scenario, out);
-  addLegJacobians(scenario, out);
-  addRelativeRates(scenario, out);
-  out.causes.push_back(damped(scenario));
-  return std::move(out.causes);
+void addJointCauses(TriedCauses& out) {
+  addSpeeds(out);
+  addRotorAccelerations(out);
+  addLegJacobians(out);
+  addRelativeRates(out);
+  addDamped(out);
 }
 
 }  // namespace ursula

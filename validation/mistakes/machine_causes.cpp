@@ -1,210 +1,182 @@
-#include "validation/mistakes/tried_causes.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <tuple>
 #include <utility>
 
-#include "validation/mistakes/machine_collector.h"
 #include "validation/mistakes/tied_parameters.h"
+#include "validation/mistakes/tried_causes.h"
 
 namespace ursula {
 namespace {
 
 using Machine = ManipulatorParameters;
 
-/// The tensor about the mass centre with m (r² 1 − r rᵀ) added or subtracted.
-Matrix3d moved(const Matrix3d& inertia, double mass, const Vector3d& r, double sign) {
-  return inertia + sign * mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
+/// m (r² 1 − r rᵀ).
+Matrix3d momentsOf(double mass, const Vector3d& r) {
+  return mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
 }
 
-void addInertias(MachineCauses& out) {
-  const NamedCause platform_inertia{CauseKind::reference_point, "inertia", "platform"};
-  const auto link = [](double sign, bool from_end) {
-    return [sign, from_end](Link& one) {
-      const double r = from_end ? one.length - one.center_of_mass : one.center_of_mass;
-      one.inertia = moved(one.inertia, one.mass, Vector3d(0, 0, r), sign);
-    };
-  };
-  out.addLinks("inertias of ", " about the first joint used as about the mass centre", CauseKind::reference_point,
-               "inertia", link(1, false));
-  out.addLinks("inertias of ", ", about the mass centre, taken for such about the first joint",
-               CauseKind::reference_point, "inertia", link(-1, false));
-  out.addFixed({"inertia of the platform about P used as about its mass centre", platform_inertia},
-               [](Machine& machine) {
-                 Platform& one = machine.platform;
-                 one.inertia = moved(one.inertia, one.mass, one.center_of_mass, 1);
-               });
-  out.addFixed({"inertia of the platform, about its mass centre, taken for such about P", platform_inertia},
-               [](Machine& machine) {
-                 Platform& one = machine.platform;
-                 one.inertia = moved(one.inertia, one.mass, one.center_of_mass, -1);
-               });
+void addInertiaPoints(TriedCauses& out) {
+  const NamedCause of_platform{CauseKind::reference_point, "inertia", "platform"};
+  for (const auto& [sign, text] : {std::pair(1, " about {} used as about the mass centre"),
+                                   {-1, ", about the mass centre, taken for such about {}"}})
+    out.addLinks(
+        "inertias of ", fmt::format(fmt::runtime(text), "the first joint"), CauseKind::reference_point, "inertia",
+        [sign = sign](Link& one) { one.inertia += sign * momentsOf(one.mass, Vector3d(0, 0, one.center_of_mass)); });
+  for (const auto& [sign, text] : {std::pair(1, "inertia of the platform about P used as about its mass centre"),
+                                   {-1, "inertia of the platform, about its mass centre, taken for such about P"}})
+    out.addMachine({text, of_platform}, [sign = sign](Machine& machine) {
+      machine.platform.inertia += sign * momentsOf(machine.platform.mass, machine.platform.center_of_mass);
+    });
   for (const auto& [words, sign] : {std::pair("added to", 1), {"taken off", -1}})
-    out.addFixed({fmt::format("m |rho|^2 {} every moment of inertia of the platform, without the outer product", words),
-                  platform_inertia},
-                 [sign = sign](Machine& machine) {
-                   Platform& one = machine.platform;
-                   one.inertia += sign * one.mass * one.center_of_mass.squaredNorm() * Matrix3d::Identity();
-                 });
-  const auto add_order = [&](const char* order, const std::function<void(Matrix3d&)>& change) {
-    const std::string words = fmt::format(" read in the order {}", order);
+    out.addMachine(
+        {fmt::format("m |rho|^2 {} every moment of inertia of the platform, without the outer product", words),
+         of_platform},
+        [sign = sign](Machine& machine) {
+          Platform& one = machine.platform;
+          one.inertia += sign * one.mass * one.center_of_mass.squaredNorm() * Matrix3d::Identity();
+        });
+}
+
+/// Entries read in another order, or axes exchanged.
+void addInertiaOrders(TriedCauses& out) {
+  const auto add = [&](const std::string& words, const std::function<void(Matrix3d&)>& change) {
     out.addLinks("inertias of ", words, CauseKind::frame, "inertia", [change](Link& one) { change(one.inertia); });
-    out.addFixed({"inertia of the platform" + words, NamedCause{CauseKind::frame, "inertia", "platform"}},
-                 [change](Machine& machine) { change(machine.platform.inertia); });
+    out.addMachine({"inertia of the platform" + words, {CauseKind::frame, "inertia", "platform"}},
+                   [change](Machine& machine) { change(machine.platform.inertia); });
   };
   for (const auto& [order, from] : {std::pair("xx, yy, zz, xz, xy, yz", Vector3d(1, 0, 2)),
                                     {"xx, yy, zz, yz, xz, xy", Vector3d(2, 1, 0)},
                                     {"xx, yy, zz, xy, yz, xz", Vector3d(0, 2, 1)},
                                     {"xx, yy, zz, yz, xy, xz", Vector3d(2, 0, 1)}})
-    add_order(order, [from = from](Matrix3d& I) {
+    add(fmt::format(" read in the order {}", order), [from = from](Matrix3d& I) {
       const Vector3d products(I(0, 1), I(0, 2), I(1, 2));
       const auto at = [&](int k) { return products(static_cast<int>(from(k))); };
       I(0, 1) = I(1, 0) = at(0), I(0, 2) = I(2, 0) = at(1), I(1, 2) = I(2, 1) = at(2);
     });
-  for (const int first : {1, 2})
-    add_order(first == 1 ? "yy, zz, xx" : "zz, xx, yy", [first](Matrix3d& I) {
+  for (const auto& [words, axes] : {std::pair(" read in the order yy, zz, xx", Eigen::Vector3i(1, 2, 0)),
+                                    {" read in the order zz, xx, yy", Eigen::Vector3i(2, 0, 1)},
+                                    {" with x and y exchanged", Eigen::Vector3i(1, 0, 2)},
+                                    {" with x and z exchanged", Eigen::Vector3i(2, 1, 0)},
+                                    {" with y and z exchanged", Eigen::Vector3i(0, 2, 1)}})
+    add(words, [axes = axes](Matrix3d& I) {
       const Matrix3d before = I;
       for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k) I(i, k) = before((i + first) % 3, (k + first) % 3);
+        for (int k = 0; k < 3; ++k) I(i, k) = before(axes(i), axes(k));
     });
-  const std::tuple<const char*, int, int> exchanged[] = {{"x and y", 0, 1}, {"x and z", 0, 2}, {"y and z", 1, 2}};
-  for (const auto& [axes, i, k] : exchanged) {
-    const auto exchange = [i = i, k = k](Matrix3d& inertia) {
-      inertia.row(i).swap(inertia.row(k));
-      inertia.col(i).swap(inertia.col(k));
-    };
-    const std::string words = fmt::format(" with {} exchanged", axes);
-    out.addLinks("inertias of ", words, CauseKind::frame, "inertia", [exchange](Link& one) { exchange(one.inertia); });
-    out.addFixed({"inertia of the platform" + words, NamedCause{CauseKind::frame, "inertia", "platform"}},
-                 [exchange](Machine& machine) { exchange(machine.platform.inertia); });
-  }
-  out.addFixed({"inertia of the platform without products of inertia",
-                NamedCause{CauseKind::parameter, "", "platform", "manipulator.platform.inertia"}},
-               [](Machine& machine) {
-                 Matrix3d& inertia = machine.platform.inertia;
-                 inertia = inertia.diagonal().asDiagonal().toDenseMatrix();
-               });
+}
+
+void addProducts(TriedCauses& out) {
+  const auto moments = [](const Matrix3d& inertia) { return Matrix3d(inertia.diagonal().asDiagonal()); };
+  out.addMachine({"inertia of the platform without products of inertia",
+                  {CauseKind::parameter, "", "platform", "manipulator.platform.inertia"}},
+                 [=](Machine& machine) { machine.platform.inertia = moments(machine.platform.inertia); });
   out.addLinks("inertias of ", " without products of inertia", CauseKind::missing_term, "inertia",
-               [](Link& one) { one.inertia = one.inertia.diagonal().asDiagonal().toDenseMatrix(); });
+               [=](Link& one) { one.inertia = moments(one.inertia); });
   out.addLinks("products of inertia of ", " with the wrong sign", CauseKind::sign, "inertia",
-               [](Link& one) { one.inertia = 2 * one.inertia.diagonal().asDiagonal().toDenseMatrix() - one.inertia; });
+               [=](Link& one) { one.inertia = 2 * moments(one.inertia) - one.inertia; });
 }
 
-/// One link alone.
-void addOtherEnds(int legs, MachineCauses& out) {
-  for (int i = 0; i < legs; ++i)
-    for (const auto& [name, link] : {std::pair("proximal", &Leg::proximal), std::pair("distal", &Leg::distal)}) {
-      NamedCause named{CauseKind::reference_point, "", name};
-      named.leg = i + 1;
-      out.addFixed(
-          {fmt::format("mass centre of the {} link of leg {} measured from the other end", name, i + 1), named},
-          [i, link = link](Machine& machine) {
-            Link& one = machine.legs[static_cast<std::size_t>(i)].*link;
-            one.center_of_mass = one.length - one.center_of_mass;
-          });
-    }
+void fromOtherEnd(Link& one) { one.center_of_mass = one.length - one.center_of_mass; }
+
+void addMassCentres(TriedCauses& out) {
+  const std::pair<const char*, void (*)(Link&)> of_links[] = {
+      {" measured from the other end", fromOtherEnd},
+      {" taken at the middle", [](Link& one) { one.center_of_mass = one.length / 2; }},
+      {" at their first joints", [](Link& one) { one.center_of_mass = 0; }},
+      {" put on their lines", [](Link& one) { one.off_line.setZero(); }}};
+  for (const auto& [words, change] : of_links)
+    out.addLinks("mass centres of ", words, CauseKind::reference_point, "", change);
+  for (const auto& [words, factor] : {std::pair("taken at P", 0), {"on the other side of P", -1}})
+    out.addMachine({fmt::format("mass centre of the platform {}", words), {CauseKind::reference_point, "", "platform"}},
+                   [factor = factor](Machine& machine) { machine.platform.center_of_mass *= factor; });
 }
 
-void addExchanged(MachineCauses& out) {
-  const NamedCause platform_centre{CauseKind::reference_point, "", "platform"};
-  out.addLinks("mass centres of ", " measured from the other end", CauseKind::reference_point, "",
-               [](Link& one) { one.center_of_mass = one.length - one.center_of_mass; });
-  out.addLinks("mass centres of ", " taken at the middle", CauseKind::reference_point, "",
-               [](Link& one) { one.center_of_mass = one.length / 2; });
-  out.addLinks("mass centres of ", " at their first joints", CauseKind::reference_point, "",
-               [](Link& one) { one.center_of_mass = 0; });
-  out.addLinks("mass centres of ", " put on their lines", CauseKind::reference_point, "",
-               [](Link& one) { one.off_line.setZero(); });
-  out.addFixed({"mass centre of the platform taken at P", platform_centre},
-               [](Machine& machine) { machine.platform.center_of_mass.setZero(); });
-  out.addFixed({"mass centre of the platform on the other side of P", platform_centre},
-               [](Machine& machine) { machine.platform.center_of_mass *= -1; });
-  const NamedCause of_links{CauseKind::parameter, "", "legs", "manipulator.leg_defaults"};
-  out.addFixed({"proximal and distal links exchanged, but for their lengths", of_links}, [](Machine& machine) {
-    for (Leg& leg : machine.legs) {
-      std::swap(leg.proximal, leg.distal);
-      std::swap(leg.proximal.length, leg.distal.length);
-    }
-  });
-  out.addFixed({"proximal and distal links exchanged, with their lengths", of_links}, [](Machine& machine) {
-    for (Leg& leg : machine.legs) std::swap(leg.proximal, leg.distal);
-  });
-  out.addFixed({"proximal and distal inertias exchanged", of_links}, [](Machine& machine) {
-    for (Leg& leg : machine.legs) std::swap(leg.proximal.inertia, leg.distal.inertia);
-  });
+void exchangeButForLengths(Leg& leg) {
+  std::swap(leg.proximal, leg.distal);
+  std::swap(leg.proximal.length, leg.distal.length);
 }
 
-/// The links of one leg exchanged.
-void addExchangedOf(int legs, MachineCauses& out) {
-  for (int i = 0; i < legs; ++i) {
-    NamedCause named{CauseKind::parameter, "", "legs", fmt::format("manipulator.leg.{}", i + 1)};
-    named.leg = i + 1;
-    out.addFixed({fmt::format("proximal and distal link of leg {} exchanged, but for their lengths", i + 1), named},
-                 [i](Machine& machine) {
-                   Leg& leg = machine.legs[static_cast<std::size_t>(i)];
-                   std::swap(leg.proximal, leg.distal);
-                   std::swap(leg.proximal.length, leg.distal.length);
-                 });
-  }
+void addExchanged(TriedCauses& out) {
+  const std::pair<const char*, void (*)(Leg&)> of_all[] = {
+      {"proximal and distal links exchanged, but for their lengths", exchangeButForLengths},
+      {"proximal and distal links exchanged, with their lengths",
+       [](Leg& leg) { std::swap(leg.proximal, leg.distal); }},
+      {"proximal and distal inertias exchanged",
+       [](Leg& leg) { std::swap(leg.proximal.inertia, leg.distal.inertia); }}};
+  for (const auto& [text, change] : of_all)
+    out.addMachine({text, {CauseKind::parameter, "", "legs", "manipulator.leg_defaults"}},
+                   [change = change](Machine& machine) {
+                     for (Leg& leg : machine.legs) change(leg);
+                   });
+}
+
+/// Mistakes in one leg.
+void addOfOneLeg(TriedCauses& out) {
+  const auto add = [&out](int leg, const std::string& text, NamedCause named, const std::function<void(Leg&)>& change) {
+    named.leg = leg;
+    out.addMachine({text, named},
+                   [leg, change](Machine& machine) { change(machine.legs[static_cast<std::size_t>(leg - 1)]); });
+  };
+  for (int leg = 1; leg <= out.machine.legCount(); ++leg)
+    for (const auto& [name, link] : {std::pair("proximal", &Leg::proximal), std::pair("distal", &Leg::distal)})
+      add(leg, fmt::format("mass centre of the {} link of leg {} measured from the other end", name, leg),
+          {CauseKind::reference_point, "", name}, [link = link](Leg& changed) { fromOtherEnd(changed.*link); });
+  for (int leg = 1; leg <= out.machine.legCount(); ++leg)
+    add(leg, fmt::format("proximal and distal link of leg {} exchanged, but for their lengths", leg),
+        {CauseKind::parameter, "", "legs", fmt::format("manipulator.leg.{}", leg)}, exchangeButForLengths);
 }
 
 /// Links that spin freely, held at the universal joint.
-void addHeld(const Machine& given, MachineCauses& out) {
-  out.addFixed({"links that spin freely taken as held by their universal joints",
-                NamedCause{CauseKind::missing_term, "spin", "legs"}},
-               [given](Machine& machine) {
-                 machine = given;
-                 for (Leg& leg : machine.legs) leg.spins = false;
-               });
+void addHeld(TriedCauses& out) {
+  out.addMachine(
+      {"links that spin freely taken as held by their universal joints", {CauseKind::missing_term, "spin", "legs"}},
+      [given = out.machine.given()](Machine& machine) {
+        machine = given;
+        for (Leg& leg : machine.legs) leg.spins = false;
+      });
 }
 
-/// Legs with a knee.
-std::vector<std::size_t> bentLegs(const Manipulator& machine) {
-  std::vector<std::size_t> out;
-  for (int i = 0; i < machine.legCount(); ++i)
-    if (rowOf(machine.leg(i).kind).knee != nullptr) out.push_back(static_cast<std::size_t>(i));
-  return out;
-}
-
-void addKnees(const Manipulator& machine, MachineCauses& out) {
-  const std::vector<std::size_t> bent = bentLegs(machine);
-  const int all = static_cast<int>(bent.size());
-  for (int legs = 1; legs < 1 << all; ++legs) {
+void addKnees(TriedCauses& out) {
+  std::vector<std::size_t> bent;
+  for (int i = 0; i < out.machine.legCount(); ++i)
+    if (rowOf(out.machine.leg(i).kind).knee != nullptr) bent.push_back(static_cast<std::size_t>(i));
+  for (int which = 1; which < 1 << bent.size(); ++which) {
+    std::vector<std::size_t> legs;
     std::string names;
-    int count = 0;
-    for (int i = 0; i < all; ++i)
-      if (legs >> i & 1) names += fmt::format("{}{}", count++ == 0 ? "" : ", ", bent[static_cast<std::size_t>(i)] + 1);
-    std::optional<NamedCause> named = NamedCause{CauseKind::parameter, "", "legs", "manipulator.leg_defaults.knee"};
-    if (count == 1) {
-      named->leg = std::stoi(names);
-      named->parameter = "manipulator.leg." + names + ".knee";
-    } else if (count < machine.legCount()) {
-      named.reset();  // the contract has no name for some legs
+    for (std::size_t i = 0; i < bent.size(); ++i) {
+      if ((which >> i & 1) == 0) continue;
+      names += fmt::format("{}{}", legs.empty() ? "" : ", ", bent[i] + 1);
+      legs.push_back(bent[i]);
     }
-    out.addFixed({count == machine.legCount() ? std::string("the other knee on every leg")
-                                              : fmt::format("the other knee on leg{} {}", count == 1 ? "" : "s", names),
-                  named},
-                 [legs, bent](Machine& changed) {
-                   for (std::size_t i = 0; i < bent.size(); ++i) {
-                     Knee& knee = changed.legs[bent[i]].knee;
-                     if (legs >> i & 1) knee = knee == Knee::positive ? Knee::negative : Knee::positive;
-                   }
-                 });
+    const bool all = static_cast<int>(legs.size()) == out.machine.legCount();
+    CauseName name(all ? "the other knee on every leg"
+                       : fmt::format("the other knee on leg{} {}", legs.size() == 1 ? "" : "s", names));
+    if (all) name.named = NamedCause{CauseKind::parameter, "", "legs", "manipulator.leg_defaults.knee"};
+    if (legs.size() == 1) {  // the contract has no name for some legs
+      name.named = NamedCause{CauseKind::parameter, "", "legs", "manipulator.leg." + names + ".knee"};
+      name.named->leg = static_cast<int>(legs.front()) + 1;
+    }
+    out.addMachine(name, [legs](Machine& changed) {
+      for (const std::size_t i : legs) {
+        Knee& knee = changed.legs[i].knee;
+        knee = knee == Knee::positive ? Knee::negative : Knee::positive;
+      }
+    });
   }
 }
 
-void addRotors(const Scenario& scenario, MachineCauses& out) {
-  if (hasRotors(*scenario.manipulator))
-    for (const auto& [words, kind, times] :
-         {std::tuple("left out", CauseKind::missing_term, 1), {"with the wrong sign", CauseKind::sign, 2}})
-      out.addFixed(
-          {fmt::format("the rotors' inertia {}", words), NamedCause{kind, "rotor_inertia", "all"}},
-          [](Machine& machine) {
-            for (Leg& leg : machine.legs) leg.rotor_inertia = {};
-          },
-          times);
+void addRotors(TriedCauses& out) {
+  if (!hasRotors(out.machine)) return;
+  for (const auto& [words, kind, times] :
+       {std::tuple("left out", CauseKind::missing_term, 1), {"with the wrong sign", CauseKind::sign, 2}})
+    out.addMachine(
+        {fmt::format("the rotors' inertia {}", words), {kind, "rotor_inertia", "all"}},
+        [](Machine& machine) {
+          for (Leg& leg : machine.legs) leg.rotor_inertia = {};
+        },
+        times);
 }
 
 /// The unit of a tensor that is this many times too large; null if it is none.
@@ -215,7 +187,7 @@ const char* unitOfInertia(double factor) {
   return nullptr;
 }
 
-void addPlatform(MachineCauses& out) {
+void addPlatform(TriedCauses& out) {
   out.addFitted([](Machine& machine, double x) { machine.platform.inertia *= 1 + x; },
                 [](double x, double deviation) {
                   const char* unit = unitOfInertia(1 + x);
@@ -230,7 +202,8 @@ void addPlatform(MachineCauses& out) {
       [](Machine& machine, double x) {  // in units of the platform's mass
         Platform& one = machine.platform;
         const Vector3d before = one.center_of_mass, after = before / (1 + x), to_load = after, to_old = before - after;
-        one.inertia = moved(moved(one.inertia, one.mass, to_old, 1), x * one.mass, to_load, 1);
+        one.inertia += momentsOf(one.mass, to_old);
+        one.inertia += momentsOf(x * one.mass, to_load);
         one.mass *= 1 + x;
         one.center_of_mass = after;
       },
@@ -244,20 +217,20 @@ void addPlatform(MachineCauses& out) {
 
 }  // namespace
 
-std::vector<Cause> machineCauses(const Scenario& scenario) {
-  MachineCauses out(scenario);
+void addMachineCauses(TriedCauses& out) {
   addPlatform(out);
-  for (const TiedParameters& tied : tiedParameters(*scenario.manipulator)) out.addTied(tied);
-  addInertias(out);
+  for (const TiedParameters& tied : tiedParameters(out.machine)) out.addTied(tied);
+  addInertiaPoints(out);
+  addInertiaOrders(out);
+  addProducts(out);
+  addMassCentres(out);
   addExchanged(out);
-  addOtherEnds(scenario.manipulator->legCount(), out);
-  addExchangedOf(scenario.manipulator->legCount(), out);
-  addHeld(scenario.manipulator->given(), out);
-  addKnees(*scenario.manipulator, out);
-  addRotors(scenario, out);
-  addPointCauses(*scenario.manipulator, out);
-  addFrictionCauses(*scenario.manipulator, out);
-  return std::move(out.causes);
+  addOfOneLeg(out);
+  addHeld(out);
+  addKnees(out);
+  addRotors(out);
+  addPointCauses(out);
+  addFrictionCauses(out);
 }
 
 }  // namespace ursula

@@ -28,9 +28,14 @@ std::string sharedPath(const std::vector<Parameter>& members) {
   return shared;
 }
 
-bool areEqual(const ManipulatorParameters& machine, const std::vector<Parameter>& members) {
+/// Whether a value is the same for all members.
+template <class F>
+bool areAlike(const std::vector<Parameter>& members, F&& value) {
   return std::all_of(members.begin(), members.end(),
-                     [&](const Parameter& each) { return isEqual(each.get(machine), members.front().get(machine)); });
+                     [&](const Parameter& each) { return isEqual(value(each), value(members.front())); });
+}
+bool areEqual(const ManipulatorParameters& machine, const std::vector<Parameter>& members) {
+  return areAlike(members, [&](const Parameter& each) { return each.get(machine); });
 }
 
 /// Points move together. So may unequal lengths and mass centres, which otherwise change in proportion.
@@ -65,15 +70,12 @@ std::string TiedParameters::text(const ManipulatorParameters& machine, double re
   disturb(changed, relative);
   disturb(further, relative + deviation);
   const std::string unit = first.unit.empty() ? "" : " " + first.unit;
-  bool same_before = true, same_change = true;
-  const double before = first.get(machine), after = first.get(changed);
-  for (const Parameter& member : members) {
-    same_before = same_before && isEqual(member.get(machine), before);
-    same_change = same_change && (together || isEqual(member.get(changed) - member.get(machine), after - before));
-  }
-  const double spread = std::abs(first.get(further) - after);
-  if (same_before) return fmt::format("{} {}{} instead of {:.9g}", words, withDeviation(after, spread), unit, before);
-  if (same_change) return fmt::format("{} off by {}{}", words, withDeviation(after - before, spread), unit);
+  const double before = first.get(machine), after = first.get(changed), spread = std::abs(first.get(further) - after);
+  const auto change = [&](const Parameter& each) { return each.get(changed) - each.get(machine); };
+  if (areEqual(machine, members))
+    return fmt::format("{} {}{} instead of {:.9g}", words, withDeviation(after, spread), unit, before);
+  if (together || areAlike(members, change))
+    return fmt::format("{} off by {}{}", words, withDeviation(after - before, spread), unit);
   const std::string amount = withDeviation(relative, deviation);
   if (first.entries == 1) return fmt::format("{} off by a relative {}", words, amount);
   return fmt::format("{} off by {} of each {}", words, amount,
@@ -99,16 +101,13 @@ std::optional<NamedCause> TiedParameters::named(const ManipulatorParameters& mac
   const double before = first.get(machine), after = first.get(changed);
   if (!isPossible(machine, relative)) return std::nullopt;
   NamedCause out{CauseKind::parameter, "", first.body.empty() && first.leg >= 0 ? "legs" : first.body};
-  const bool one = members.size() == 1;
-  const bool is_legs = std::all_of(members.begin(), members.end(), [&](const Parameter& member) {
-    return member.body == first.body && member.quantity == first.quantity && member.entry == first.entry &&
-           isEqual(member.get(machine), before) && isEqual(member.get(changed), after);
-  });
-  if (one ||
-      (std::all_of(members.begin(), members.end(), [&](const Parameter& each) { return each.leg == first.leg; })))
-    out.leg = first.leg + 1;
+  const auto all = [this](auto&& same) { return std::all_of(members.begin(), members.end(), same); };
+  if (all([&](const Parameter& each) { return each.leg == first.leg; })) out.leg = first.leg + 1;
   out.parameter = sharedPath(members);
-  if (!one && !is_legs) return out;  // several numbers with different values
+  const bool are_one_number = all([&](const Parameter& each) {
+    return each.body == first.body && each.quantity == first.quantity && each.entry == first.entry;
+  });
+  if (!are_one_number || !areEqual(machine, members) || !areEqual(changed, members)) return out;
   out.unit = first.unit;
   out.expected = before;
   out.found = after;

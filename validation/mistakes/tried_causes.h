@@ -12,69 +12,88 @@
 
 namespace ursula {
 
+class MachineSlopes;
+struct TiedParameters;
+
+/// Collects causes. The scenario must outlive them.
+struct TriedCauses {
+  using Machine = ManipulatorParameters;
+
+  const Scenario& scenario;
+  const Manipulator& machine = *scenario.manipulator;
+  std::vector<Cause> causes = {};
+  std::shared_ptr<MachineSlopes> slopes = {};  ///< once a machine's number is fitted
+
+  /// Adds a cause without a fitted number; `solver` is called when it is tried.
+  Cause& add(const CauseName& name, const std::function<EffortsOf()>& solver);
+
+  /// Adds the NOC's efforts for a motion that a solver read otherwise; telescopic legs then have no end of stroke.
+  Cause& addReading(const CauseName& name, const std::function<void(Motion<double>&)>& change);
+
+  /// Adds the NOC's efforts with another machine at each instant, without ends of strokes.
+  void addNotTurned(const CauseName& name, const std::function<void(Machine&, const Matrix3d& Q)>& change);
+
+  /// Adds the efforts of another machine. The effect of the change counts `times`: twice if a change that removes a
+  /// term stands for its wrong sign.
+  void addMachine(const CauseName& name, const std::function<void(Machine&)>& change, double times = 1);
+  /// Adds a change of all links, of the proximal ones and of the distal ones, also of each kind of leg alone. `kind`
+  /// and `term` name it.
+  void addLinks(const std::string& before, const std::string& after, CauseKind kind, const char* term,
+                const std::function<void(Link&)>& change);
+  Cause& addFitted(const std::function<void(Machine&, double x)>& change, const Cause::Words& words,
+                   const Cause::Named& named);
+  void addTied(const TiedParameters& tied);
+
+  /// The efforts that a mistake adds for one motion.
+  using EffortChange = std::function<Vector6d(const MachineTerms&)>;
+  /// Adds a mistake that adds something to the NOC's efforts.
+  void addEfforts(const CauseName& name, const EffortChange& change);
+  /// Adds the mistake also for a solver that makes it first, and then adds its motors' own friction and rotors.
+  void addAlsoWithoutMotors(const std::string& text, const NamedCause& named, const EffortChange& change);
+};
+
+/// Returns the causes of one of the groups below. `scenario` must outlive them.
+std::vector<Cause> causesOf(const Scenario& scenario, void (*group)(TriedCauses&));
+
 /// Errors in every continuous parameter of the machine, for all legs, both links or one leg. Others are gravity's size,
 /// the other knee branch, inertias about the wrong point, mass centres from the wrong end, and exchanged values. Likely
 /// causes come first.
-std::vector<Cause> machineCauses(const Scenario& scenario);
+void addMachineCauses(TriedCauses& out);
+/// Points and axes of all legs at once: scaled, turned, numbered otherwise.
+void addPointCauses(TriedCauses& out);
+/// Friction that the scenario lacks, and parts of its own left out or with the wrong sign.
+void addFrictionCauses(TriedCauses& out);
 
 /// Other interpretations of the motion: inverse rotation, the platform's frame, another point, a missing part. Also
-/// platform quantities used without rotation, and inertias of the motors.
-std::vector<Cause> motionCauses(const Scenario& scenario);
+/// platform quantities used without rotation, and inertias of the motors. Then come rates read otherwise: rates of
+/// angles for the angular velocity, degrees, millimetres.
+void addMotionCauses(TriedCauses& out);
+/// Rates of angles for the angular velocity, turns in another order.
+void addAngleCauses(TriedCauses& out);
 
-/// Rates read otherwise: rates of angles for the angular velocity, degrees, millimetres.
-std::vector<Cause> rateCauses(const Scenario& scenario);
+/// Mistakes in a solver's own formulas, for every kind of leg. A term of a group of bodies is missing or has the wrong
+/// sign; tensors use other frames or points; the links' spin is missing.
+void addTermCauses(TriedCauses& out);
+
+/// Mistakes in a leg's own coordinates: friction without signs, rotors without the Jacobian's rate, a wrong or
+/// damped inverse of its Jacobian, rates of distal links relative to the proximal ones.
+void addJointCauses(TriedCauses& out);
+
+/// A wrong Jacobian, or moments about the wrong point.
+void addJacobianCauses(TriedCauses& out);
+
+/// Open loops or loops closed by least squares, missing J̇.
+void addLoopCauses(TriedCauses& out);
+
+/// Mistakes with sliding legs, UPS and PUS: a mass centre is measured from the joint at the leg's other end, or a force
+/// is along the wrong line.
+void addSlidingCauses(TriedCauses& out);
+
+/// Rates that a solver takes as differences between the instants of its torques, s. None if these are too few.
+void addDifferenceCauses(const std::vector<double>& instants, TriedCauses& out);
 
 /// Telescopic legs without an end of stroke: another machine or a misread pose may be beyond it, and a solver need not
 /// care.
 Manipulator withoutStroke(const Manipulator& machine);
-
-/// The NOC's efforts for a motion that a solver read otherwise; telescopic legs then have no end of stroke.
-Cause readOtherwise(const Scenario& scenario, const CauseName& name,
-                    const std::function<void(Motion<double>&)>& change);
-
-/// The efforts that a mistake adds for one motion.
-using EffortChange = std::function<Vector6d(const MachineTerms&)>;
-
-/// Collects causes that add something to the NOC's efforts. The scenario must outlive them.
-class EffortCauses {
- public:
-  explicit EffortCauses(const Scenario& scenario) : scenario_(scenario) {}
-
-  void add(const std::string& text, const NamedCause& named, const EffortChange& change) {
-    add(text, named, change, scenario_.manipulator);
-  }
-  /// Adds the mistake also for a solver that makes it first, and then adds its motors' own friction and rotors.
-  void addAlsoWithoutMotors(const std::string& text, const NamedCause& named, const EffortChange& change);
-
-  std::vector<Cause> causes;
-
- private:
-  void add(const std::string& text, const NamedCause& named, const EffortChange& change,
-           const std::shared_ptr<const Manipulator>& changed);
-
-  const Scenario& scenario_;
-};
-
-/// Mistakes in a solver's own formulas, for every kind of leg. A term of a group of bodies is missing or has the wrong
-/// sign; tensors use other frames or points; the links' spin is missing. `scenario` must outlive them.
-std::vector<Cause> termCauses(const Scenario& scenario);
-
-/// Mistakes in a leg's own coordinates: friction without signs, rotors without the Jacobian's rate, a wrong or
-/// damped inverse of its Jacobian, rates of distal links relative to the proximal ones. `scenario` must outlive them.
-std::vector<Cause> jointCauses(const Scenario& scenario);
-
-/// A wrong Jacobian, or moments about the wrong point. `scenario` must outlive them.
-std::vector<Cause> jacobianCauses(const Scenario& scenario);
-
-/// Open loops or loops closed by least squares, missing J̇. `scenario` must outlive them.
-std::vector<Cause> loopCauses(const Scenario& scenario);
-
-/// Rates that a solver takes as differences between the instants of its torques, s. Empty if these are too few.
-/// `scenario` must outlive them.
-std::vector<Cause> differenceCauses(const Scenario& scenario, const std::vector<double>& instants);
-
-/// Mistakes with sliding legs, UPS and PUS: a mass centre is measured from the joint at the leg's other end, or a force
-/// is along the wrong line. `scenario` must outlive them.
-std::vector<Cause> slidingCauses(const Scenario& scenario);
 
 }  // namespace ursula

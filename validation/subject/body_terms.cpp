@@ -34,15 +34,10 @@ double frictionOf(const Leg& leg, Coordinate coordinate, double rate) {
          leg.coulomb.on(coordinate) * std::tanh(rate / leg.coulomb.speedOf(coordinate));
 }
 
-BodyTerms bodyTerms(double mass, const Matrix3d& inertia, const BodyMotion<double>& at, const Matrix6d& T) {
-  BodyTerms out;
-  out.mass = mass;
-  out.inertia = at.R * inertia * at.R.transpose();
-  out.R = at.R;
-  out.c = at.c;
-  out.twist = at.twist;
-  out.twist_rate = at.twist_rate;
-  out.T = T;
+/// M times twists, (29).
+UnitTwists massTimes(const BodyTerms& body, const UnitTwists& twists) {
+  UnitTwists out;
+  out << body.inertia * twists.topRows<3>(), body.mass * twists.bottomRows<3>();
   return out;
 }
 
@@ -54,13 +49,9 @@ Vector6d BodyTerms::inertiaWrench(const Vector6d& rate) const {
   return out;
 }
 
-Eigen::Matrix<double, 6, 3> BodyTerms::massTimes(const Eigen::Matrix<double, 6, 3>& twists) const {
-  Eigen::Matrix<double, 6, 3> out;
-  out << inertia * twists.topRows<3>(), mass * twists.bottomRows<3>();
-  return out;
-}
+Vector6d BodyTerms::gravityWrench() const { return forceWrench(mass * gravity); }
 
-Vector6d BodyTerms::gravityWrench(const Vector3d& g) const { return forceWrench(mass * g); }
+Vector6d BodyTerms::efforts() const { return T.transpose() * (inertiaWrench(twist_rate) - gravityWrench()); }
 
 Vector6d momentWrench(const Vector3d& n) {
   Vector6d out;
@@ -74,16 +65,19 @@ Vector6d forceWrench(const Vector3d& f) {
   return out;
 }
 
+Vector6d OpenLeg::atP(const Vector3d& of_coordinates) const {
+  return P.transpose() * J.transpose().lu().solve(of_coordinates);
+}
+
 Vector6d MachineTerms::forceAtP() const {
   Vector6d out = platform_wrench;
-  for (const OpenLeg& leg : legs) out += leg.P.transpose() * leg.J.transpose().lu().solve(leg.efforts);
+  for (const OpenLeg& leg : legs) out += leg.atP(leg.efforts);
   return out;
 }
 
 Vector6d MachineTerms::ofAccelerations(const std::function<Vector3d(const OpenLeg&)>& off) const {
   Vector6d at_P = Vector6d::Zero();
-  for (const OpenLeg& leg : legs)
-    at_P += leg.P.transpose() * leg.J.transpose().lu().solve(Vector3d(leg.mass * leg.J.lu().solve(off(leg))));
+  for (const OpenLeg& leg : legs) at_P += leg.atP(leg.mass * leg.J.lu().solve(off(leg)));
   return T_P.transpose() * at_P;
 }
 
@@ -96,34 +90,45 @@ MachineTerms machineTerms(const Manipulator& machine, const std::shared_ptr<cons
   noc.bodyMotions(motion, work, work.bodies);
   noc.twistShaping(motion, work);
   const std::vector<LegPoints> points = legPoints(machine, work);
-  const auto rows = [&](std::size_t body) { return Matrix6d(work.T.middleRows<6>(6 * static_cast<int>(body))); };
+  const auto body_terms = [&](double mass, const Matrix3d& inertia, std::size_t body) {
+    const BodyMotion<double>& at = work.bodies[body];
+    BodyTerms out;
+    out.mass = mass;
+    out.inertia = at.R * inertia * at.R.transpose();
+    out.R = at.R;
+    out.c = at.c;
+    out.twist = at.twist;
+    out.twist_rate = at.twist_rate;
+    out.T = work.T.middleRows<6>(6 * static_cast<int>(body));
+    out.gravity = machine.gravity();
+    return out;
+  };
 
   MachineTerms out;
-  out.gravity = machine.gravity();
+  out.motors = machine.motors();
   out.T_P = noc.platformShaping(work);
   out.rate_at_P << motion.omega_dot, motion.p_ddot;
   out.rho = motion.Q * machine.platform().center_of_mass;
-  out.platform =
-      bodyTerms(machine.platform().mass, machine.platform().inertia, work.bodies[2 * leg_count], rows(2 * leg_count));
+  out.platform = body_terms(machine.platform().mass, machine.platform().inertia, 2 * leg_count);
   out.platform.from = out.rho;
-  out.platform_wrench = out.platform.inertiaWrench(out.platform.twist_rate) - out.platform.gravityWrench(out.gravity);
+  out.platform_wrench = out.platform.inertiaWrench(out.platform.twist_rate) - out.platform.gravityWrench();
   out.platform_wrench.head<3>() += out.rho.cross(Vector3d(out.platform_wrench.tail<3>()));
   out.platform_wrench -= loadAtP(load.get(), motion);
   const JointVariables<double> rate = noc.rates(work), acceleration = noc.accelerations(work);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Leg& leg = machine.leg(static_cast<int>(i));
+    OpenLeg open;
+    const Leg& leg = open.numbers = machine.leg(static_cast<int>(i));
     const LegKindRow& row = rowOf(leg.kind);
     const LegPoints& at = points[i];
-    BodyTerms first = bodyTerms(leg.proximal.mass, leg.proximal.inertia, work.bodies[i], rows(i));
-    BodyTerms second = bodyTerms(leg.distal.mass, leg.distal.inertia, work.bodies[leg_count + i], rows(leg_count + i));
-    if (!slides(row.coordinates[0])) first.line = work.bodies[i].R.col(2), first.from = first.c - at.A;
-    second.line = work.bodies[leg_count + i].R.col(2);
+    BodyTerms& first = open.proximal = body_terms(leg.proximal.mass, leg.proximal.inertia, i);
+    BodyTerms& second = open.distal = body_terms(leg.distal.mass, leg.distal.inertia, leg_count + i);
+    if (!slides(row.coordinates[0])) first.line = first.R.col(2), first.from = first.c - at.A;
+    second.line = second.R.col(2);
     second.from = second.c - (slides(row.coordinates[2]) ? at.A : at.S);
     if (slides(row.coordinates[2])) second.sliding = rate.d(static_cast<int>(i)) * at.axes[2];
 
-    OpenLeg open;
-    const auto wrench = [&](const BodyTerms& body) {
-      return Vector6d(body.inertiaWrench(body.twist_rate) - body.gravityWrench(out.gravity));
+    const auto wrench = [](const BodyTerms& body) {
+      return Vector6d(body.inertiaWrench(body.twist_rate) - body.gravityWrench());
     };
     const UnitTwists of_first = unitTwists(row, at, first.c, row.joints_of_proximal);
     const UnitTwists of_second = unitTwists(row, at, second.c, 3);
@@ -138,7 +143,8 @@ MachineTerms machineTerms(const Manipulator& machine, const std::shared_ptr<cons
     }
     first.bias = first.twist_rate - of_first * q_ddot;
     second.bias = second.twist_rate - of_second * q_ddot;
-    open.mass += of_first.transpose() * first.massTimes(of_first) + of_second.transpose() * second.massTimes(of_second);
+    open.mass +=
+        of_first.transpose() * massTimes(first, of_first) + of_second.transpose() * massTimes(second, of_second);
     const Vector3d b = motion.Q * leg.platform_point;
     open.arm = b;
     open.platform_bias = motion.omega.cross(motion.omega.cross(b));
@@ -147,8 +153,6 @@ MachineTerms machineTerms(const Manipulator& machine, const std::shared_ptr<cons
     open.coriolis = 2 * second.omega().cross(second.sliding);
     open.bias = motion.p_ddot + motion.omega_dot.cross(b) + open.platform_bias - open.J * q_ddot;
     out.legs.push_back(open);
-    out.proximal.push_back(first);
-    out.distal.push_back(second);
   }
   return out;
 }

@@ -20,19 +20,22 @@ struct BodyTerms {
   Vector3d line = Vector3d::Zero();                       ///< along a link, unit; zero for platform and carriage
   Vector3d sliding = Vector3d::Zero();                    ///< velocity along the previous link, m/s
   Vector6d twist = Vector6d::Zero(), twist_rate = twist;  ///< [ω; ċ], [ω̇; c̈]
-  Vector6d bias = twist;          ///< the part of its twist rate that the leg's joint accelerations do not cause
-  Matrix6d T = Matrix6d::Zero();  ///< its rows of (32a): twist per unit rates of the motors
+  Vector6d bias = twist;                                  ///< part of its twist rate without joint accelerations
+  Matrix6d T = Matrix6d::Zero();                          ///< its rows of (32a): twist per unit rates of the motors
+  Vector3d gravity = Vector3d::Zero();                    ///< g, m/s²
 
   Vector3d omega() const { return twist.head<3>(); }
   /// [I ω̇ + ω × I ω; m c̈] for a twist rate, (38).
   Vector6d inertiaWrench(const Vector6d& rate) const;
-  /// M times twists, (29).
-  Eigen::Matrix<double, 6, 3> massTimes(const Eigen::Matrix<double, 6, 3>& twists) const;
-  Vector6d gravityWrench(const Vector3d& g) const;  ///< [0; m g], (45)
+  Vector6d gravityWrench() const;  ///< [0; m g], (45)
+  /// The efforts of the motors that move the body and carry its weight.
+  Vector6d efforts() const;
 };
 
 /// One leg detached from the platform, as an open chain.
 struct OpenLeg {
+  Leg numbers;
+  BodyTerms proximal, distal;
   Matrix3d J = Matrix3d::Zero();  ///< velocity of B per unit rates of its coordinates
   Eigen::Matrix<double, 3, 6> P =
       Eigen::Matrix<double, 3, 6>::Zero();    ///< the same per unit of the platform's twist at P
@@ -42,19 +45,21 @@ struct OpenLeg {
   Vector3d bias = Vector3d::Zero();           ///< J̇ q̇ of its point B, m/s²
   Vector3d coriolis = Vector3d::Zero();       ///< the part of `bias` from sliding while turning
   Vector3d platform_bias = Vector3d::Zero();  ///< ω × (ω × Qb) of the platform's, m/s²
+
+  /// The generalised force at P, [moment; force], of forces on the platform by these efforts of its coordinates.
+  Vector6d atP(const Vector3d& of_coordinates) const;
 };
 
 /// The machine in one motion, body by body. It uses the NOC's kinematics and its own dynamics. Terms can be omitted
 /// individually, and the loops can be closed in other ways.
 struct MachineTerms {
-  std::vector<BodyTerms> proximal, distal;
-  BodyTerms platform;
+  Motors motors = {};
   std::vector<OpenLeg> legs;
+  BodyTerms platform;
   Vector6d platform_wrench = Vector6d::Zero();  ///< moment about P and force that move the platform, minus the load
   Matrix6d T_P = Matrix6d::Zero();              ///< of (24)
   Vector6d rate_at_P = Vector6d::Zero();        ///< [ω̇; p̈]
   Vector3d rho = Vector3d::Zero();              ///< from P to the platform's mass centre, in B
-  Vector3d gravity = Vector3d::Zero();
 
   /// The generalised force at P of platform, links and friction; the efforts are T_Pᵀ times it.
   Vector6d forceAtP() const;
