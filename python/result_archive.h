@@ -18,8 +18,8 @@ inline void members(Archive& archive, Largest& largest) {
 }
 
 inline void members(Archive& archive, Check& check) {
-  auto& [name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed] = check;
-  archive(name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed);
+  auto& [name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed, off] = check;
+  archive(name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed, off);
 }
 
 inline void members(Archive& archive, TimeSeries& series) {
@@ -54,8 +54,8 @@ inline void members(Archive& archive, TermError& each) {
 }
 
 inline void members(Archive& archive, CauseWords& words) {
-  auto& [off, cause] = words;
-  archive(off, cause);
+  auto& [off, cause, claim] = words;
+  archive(off, cause, claim);
 }
 
 inline void members(Archive& archive, Finding& finding) {

@@ -185,7 +185,7 @@ void addCheck(py::module_& module) {
           "verdict", [](const Check& check) { return ursula::name(check.verdict); },
           "\"pass\", \"fail\", \"inconclusive\" or \"not_applicable\".")
       .def_readonly("basis", &Check::basis, "The origin of the limit.")
-      .def_readonly("why", &Check::why, "Details of the result: the leg or body, the instant, the size.")
+      .def_property_readonly("why", &whyInFull, "Details of the result: the leg or body, the instant, the size.")
       .def_property_readonly(
           "reason", [](const Check& check) { return ursula::name(check.reason); },
           "The reason why value and limit do not judge it; \"none\" if they do.")

@@ -149,10 +149,8 @@ std::string verdictBadge(Verdict verdict) {
   return badge(verdict, upper);
 }
 
-std::string checksList(const std::vector<Check>& all, const std::string& cause) {
-  if (all.empty()) return "<p>No check was made.</p>";
-  std::vector<Check> checks = all;
-  for (Check& check : checks) check.why = withoutCause(cause, check.why);
+std::string checksList(const std::vector<Check>& checks) {
+  if (checks.empty()) return "<p>No check was made.</p>";
   const Decades decades = decadesOf(checks);
   std::vector<std::vector<Check>> by_group(checkGroups().size() + 1);
   for (const Check& check : checks)

@@ -61,7 +61,7 @@ std::string sources(const std::vector<Plot>& plots) {
 }
 
 std::vector<PageSection> parts(const ValidationResult& result, const Picture* picture, const std::vector<Plot>& plots) {
-  return {{"checks", "Checks", checksList(result.checks, result.cause_words.cause)},
+  return {{"checks", "Checks", checksList(result.checks)},
           {"errors", "Errors along the motion", figuresHtml(plots, PlotGroup::errors)},
           {"efforts", "Efforts", figuresHtml(plots, PlotGroup::efforts)},
           {"motion", "Motion", figuresHtml(plots, PlotGroup::motion)},

@@ -31,16 +31,16 @@ std::string valueAndLimit(const Check& check) {
 
 std::string outcome(const Check& check) {
   const std::string basis = check.basis.empty() ? "" : "\nlimit from: " + check.basis;
-  const std::string text = escaped(check.why + "\n" + valueAndLimit(check) + basis);
+  const std::string text = escaped(whyInFull(check) + "\n" + valueAndLimit(check) + basis);
   switch (check.verdict) {
     case Verdict::fail:
       return fmt::format("<failure type=\"check\" message=\"{}\">{}</failure>",
-                         escaped(valueAndLimit(check) + ": " + check.why), text);
+                         escaped(valueAndLimit(check) + ": " + whyInFull(check)), text);
     case Verdict::inconclusive:
-      return fmt::format("<skipped message=\"inconclusive: {}\"/><system-out>{}</system-out>", escaped(check.why),
-                         text);
+      return fmt::format("<skipped message=\"inconclusive: {}\"/><system-out>{}</system-out>",
+                         escaped(whyInFull(check)), text);
     case Verdict::not_applicable:
-      return fmt::format("<skipped message=\"not applicable: {}\"/>", escaped(check.why));
+      return fmt::format("<skipped message=\"not applicable: {}\"/>", escaped(whyInFull(check)));
     case Verdict::pass:
       break;
   }

@@ -80,22 +80,28 @@ std::string agrees(const ResultFacts& facts) {
                             : fmt::format("; {} independent formulations agree {}", inWords(facts.engines), share);
 }
 
-/// Returns ". Likely cause: platform mass 303 ± 1 kg". A share that lacks only rounding becomes "all of it"; a text
-/// without a cause is not called likely.
-std::string inPrint(const std::string& found) {
-  std::string cause = powersInPrint(found);
+/// Returns ". Likely cause: platform mass 303 ± 1 kg". A share that lacks only rounding becomes "all of it".
+std::string inPrint(const CauseWords& words) {
+  std::string cause = powersInPrint(words.cause);
   for (const auto& [from, to] :
        {std::pair<std::string, std::string>{" +- ", " ± "},
         {", which explains more than 99.9999 % of the deviation", ", which explains all of it"}})
     for (std::size_t at = cause.find(from); at != std::string::npos; at = cause.find(from, at + to.size()))
       cause.replace(at, from.size(), to);
-  for (const char* unclaimed : {"no ", "right but "})
-    if (cause.rfind(unclaimed, 0) == 0) return ": " + cause;
-  return cause.rfind("a likely part: ", 0) == 0 ? ". A" + cause.substr(1) : ". Likely cause: " + cause;
+  switch (words.claim) {
+    case CauseClaim::none:
+    case CauseClaim::interval:
+      return ": " + cause;
+    case CauseClaim::part:
+      return ". " + capital(cause);
+    case CauseClaim::likely:
+      break;
+  }
+  return ". Likely cause: " + cause;
 }
 
 std::string failed(const ValidationResult& result, const ResultFacts& facts) {
-  if (!facts.cause.empty()) return facts.subject + " are wrong" + inPrint(facts.cause) + ".";
+  if (!facts.wrong.cause.empty()) return facts.subject + " are wrong" + inPrint(facts.wrong) + ".";
   const Check* worst = worstCheck(result.checks);
   if (worst == nullptr) return "No check was made.";
   const std::string numbers = std::isfinite(worst->value) && std::isfinite(worst->limit)
@@ -160,8 +166,7 @@ ResultFacts factsOf(const ValidationResult& result) {
   // Efforts of a file may cover a part of the motion; they are compared with the largest of all of it.
   if (result.deviation && result.deviation->largest_effort > 0) out.agreement = result.deviation->relative();
   if (result.replay_error) out.dominant = result.replay_error->dominant;
-  out.off = result.cause_words.off;
-  out.cause = result.cause_words.cause;
+  out.wrong = result.cause_words;
   return out;
 }
 
@@ -188,7 +193,7 @@ std::string sentence(const ValidationResult& result) { return inEffortWords(effo
 std::string detail(const ValidationResult& result) {
   const ResultFacts facts = factsOf(result);
   if (result.verdict == Verdict::pass) return "";
-  if (!facts.off.empty()) return capital(prettyUnit(facts.off)) + ".";
+  if (!facts.wrong.off.empty()) return capital(prettyUnit(facts.wrong.off)) + ".";
   const Check* worst = worstCheck(result.checks);
   const bool said = result.verdict != Verdict::fail || worst == nullptr || worst->why.empty() ||
                     !std::isfinite(worst->value) || !std::isfinite(worst->limit);
@@ -210,17 +215,15 @@ std::vector<KeyFigure> keyFigures(const ValidationResult& result) {
                    facts.agreement >= 1e-6 ? percentText(facts.agreement) : plainNumber(facts.agreement, 2),
                    "of the largest effort"});
   const bool passed = result.verdict == Verdict::pass && facts.dominant == "unexplained";  // then nothing is missing
-  if (!facts.dominant.empty() && facts.cause.empty() && !passed)
+  if (!facts.dominant.empty() && facts.wrong.cause.empty() && !passed)
     out.push_back(
         {"what limits it", facts.dominant,
          facts.windows > 1 ? fmt::format("{} windows", facts.windows) : "largest source of the replay's error"});
   return out;
 }
 
-std::string withoutCause(const std::string& cause, const std::string& why) {
-  const std::size_t off = why.find(". Off: ");
-  const bool has = !cause.empty() && off != std::string::npos && why.find(cause, off) != std::string::npos;
-  return has ? why.substr(0, off) : why;
+std::string causeText(const CauseWords& words) {
+  return (words.claim == CauseClaim::likely ? "likely cause: " : "") + words.cause;
 }
 
 }  // namespace ursula::report

@@ -21,8 +21,8 @@ struct ResultFacts {
   double allowed = 0;  ///< relative to the largest effort, by a user's tolerance; 0 if there is none
   int engines = 1;     ///< number of formulations that give efforts, including the subject's
   int windows = 1;     ///< number of windows in the replay
-  std::string dominant;    ///< source of the replay's error; may be empty
-  std::string off, cause;  ///< which efforts are wrong, and why; may be empty
+  std::string dominant;  ///< source of the replay's error; may be empty
+  CauseWords wrong;      ///< which efforts are wrong, and why; may be empty
 };
 ResultFacts factsOf(const ValidationResult& result);
 
@@ -44,8 +44,8 @@ std::vector<std::pair<std::string, std::string>> findingTexts(const ValidationRe
 /// Returns the text of the provenance or of a property; "" if there is none.
 std::string fact(const std::vector<std::pair<std::string, std::string>>& facts, const std::string& key);
 
-/// Returns a check's details without the words on the likely cause, which appear elsewhere.
-std::string withoutCause(const std::string& cause, const std::string& why);
+/// Returns "likely cause: a factor of 1.001 on leg 3"; words that claim no cause stay alone.
+std::string causeText(const CauseWords& words);
 
 /// Returns the page of one check, in lines of at most 100 columns. Throws std::invalid_argument for an unknown check,
 /// with the nearest known one.

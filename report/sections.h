@@ -18,7 +18,7 @@ std::string badge(Verdict verdict, const std::string& words);
 /// Returns the checks in groups; groups with checks that did not pass come first and are unfolded. Each check has a bar
 /// of value over limit on a logarithmic scale. Folded below are its meaning, its result and the origin of its limit.
 /// Needs no script. `cause`, the likely cause, appears elsewhere and is removed from the results.
-std::string checksList(const std::vector<Check>& checks, const std::string& cause = "");
+std::string checksList(const std::vector<Check>& checks);
 
 /// Returns machine, load and motion as tables.
 std::string inputCard(const Picture& picture);

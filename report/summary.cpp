@@ -20,7 +20,7 @@ Json checkJson(const Check& check) {
           {"unit", check.unit},
           {"verdict", name(check.verdict)},
           {"basis", check.basis},
-          {"why", check.why},
+          {"why", whyInFull(check)},
           {"reason", name(check.reason)},
           {"limit_by", name(check.limit_by)},
           {"could_have_missed", check.missed},

@@ -68,11 +68,9 @@ std::string verdictWord(const Check& check) {
   return check.reason == Reason::reported ? "not judged" : std::string(name(check.verdict));
 }
 
-std::string causeOf(const ValidationResult& result) { return result.cause_words.cause; }
-
-/// The explanation in one line, without the cause that applies to all checks.
-std::string whyLine(const Check& check, const std::string& cause) {
-  std::string why = withoutCause(cause, check.why);
+/// The reason in one line; the cause is printed once, below.
+std::string whyLine(const Check& check) {
+  std::string why = check.why;
   std::replace(why.begin(), why.end(), '\n', ' ');
   if (!why.empty()) return why;
   return std::isnan(check.value) ? "it has no value" : standing(check);
@@ -81,16 +79,15 @@ std::string whyLine(const Check& check, const std::string& cause) {
 std::string indented(std::size_t columns, const std::string& text) { return std::string(columns, ' ') + text + "\n"; }
 
 /// Returns a group's text, in which adjacent checks with the same reason share its line.
-std::string groupText(const std::vector<const Check*>& checks, const std::vector<std::string>& lines,
-                      const std::string& cause, bool coloured) {
+std::string groupText(const std::vector<const Check*>& checks, const std::vector<std::string>& lines, bool coloured) {
   std::string out;
   for (std::size_t k = 0; k < checks.size(); ++k) {
     const Check& check = *checks[k];
     const Paint paint = check.reason == Reason::reported ? Paint::quiet : paintOf(check.verdict);
     out += "  " + painted(padded(verdictWord(check), verdict_width), paint, coloured) + "  " + lines[k] + "\n";
     if (!isOpen(check)) continue;
-    const std::string why = whyLine(check, cause);
-    const bool said_next = k + 1 < checks.size() && isOpen(*checks[k + 1]) && whyLine(*checks[k + 1], cause) == why;
+    const std::string why = whyLine(check);
+    const bool said_next = k + 1 < checks.size() && isOpen(*checks[k + 1]) && whyLine(*checks[k + 1]) == why;
     if (!said_next) out += indented(verdict_width + 4, painted(why, paint, coloured));
   }
   return out;
@@ -111,7 +108,7 @@ std::string checksTable(const ValidationResult& result, bool coloured) {
     if (groups[k].empty()) continue;
     const auto end = line + static_cast<std::ptrdiff_t>(groups[k].size());
     out += painted(k < checkGroups().size() ? checkGroups()[k] : "Further checks", Paint::strong, coloured) + "\n";
-    out += groupText(groups[k], {line, end}, causeOf(result), coloured);
+    out += groupText(groups[k], {line, end}, coloured);
     line = end;
   }
   return out;
@@ -173,7 +170,7 @@ std::string reasonsText(const ValidationResult& result) {
     out += inEffortWords(effortNoun(result), replayText(*result.replay_error, effortNoun(result)));
   if (const std::vector<MotorDeviation> motors = motorsOff(result); !motors.empty())
     out += effortNoun(result) + "s against the expected ones:\n" + motorsText(motors);
-  if (!result.cause_words.cause.empty()) out += "likely cause: " + result.cause_words.cause + "\n";
+  if (!result.cause_words.cause.empty()) out += causeText(result.cause_words) + "\n";
   return out.empty() ? "" : "\n" + out;
 }
 
@@ -191,7 +188,7 @@ std::string openChecks(const std::vector<Check>& checks) {
   for (const Check& check : checks) {
     if (!isOpen(check)) continue;
     const bool undecided = any_failed && check.verdict == Verdict::inconclusive;
-    const std::string why = (undecided ? "inconclusive: " : "") + whyLine(check, "");
+    const std::string why = (undecided ? "inconclusive: " : "") + whyLine(check);
     const auto said = std::find_if(lines.begin(), lines.end(), [&why](const auto& line) { return line.first == why; });
     if (said == lines.end())
       lines.emplace_back(why, check.name);
@@ -215,10 +212,9 @@ std::string validationText(const ValidationResult& result, bool coloured) {
 }
 
 std::string quietText(const ValidationResult& result, bool coloured) {
-  SuiteEntry entry = suiteEntry(result, "");
-  const std::string cause = causeOf(result);
-  for (Check& check : entry.checks) check.why = withoutCause(cause, check.why);
-  return quietHead(entry, coloured) + (cause.empty() ? "" : "  likely cause: " + cause + "\n") +
+  const SuiteEntry entry = suiteEntry(result, "");
+  const CauseWords& words = result.cause_words;
+  return quietHead(entry, coloured) + (words.cause.empty() ? "" : "  " + causeText(words) + "\n") +
          openChecks(entry.checks);
 }
 
@@ -226,7 +222,9 @@ std::string quietText(const SuiteEntry& entry, bool coloured) {
   if (!entry.error.empty())
     return fmt::format("{}: {} — {}\n", withoutControls(entry.scenario), painted("error", Paint::bad, coloured),
                        withoutControls(entry.error));
-  return quietHead(entry, coloured) + openChecks(entry.checks);
+  std::vector<Check> checks = entry.checks;
+  for (Check& check : checks) check.why = whyInFull(check);
+  return quietHead(entry, coloured) + openChecks(checks);
 }
 
 bool wantsColour(bool is_terminal, const char* no_color, const char* term) {

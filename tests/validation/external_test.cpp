@@ -57,9 +57,9 @@ TEST(External, anErrorOfOnePartIn1e8FailsOnBothEngines) {
     EXPECT_EQ(result.verdict, Verdict::fail);
     for (const char* name : {"torque.pointwise", "acceleration.pointwise", "torque.against_noc"})
       EXPECT_EQ(verdictOf(result.checks, name), "fail") << name;
-    EXPECT_THAT(findCheck(result.checks, "torque.pointwise")->why,
+    EXPECT_THAT(findCheck(result.checks, "torque.pointwise")->off,
                 HasSubstr("Off: all legs by up to 0.0002507 N m (1e-06 % of the largest torque), from t = 0 to 3 s"));
-    EXPECT_THAT(findCheck(result.checks, "torque.pointwise")->why, HasSubstr("Likely cause: every torque scaled by"));
+    EXPECT_THAT(findCheck(result.checks, "torque.pointwise")->off, HasSubstr("Likely cause: every torque scaled by"));
     EXPECT_THAT(finding(result, "likely cause"), HasSubstr("scaled by 1 + 1e-08,"));
   }
 }
@@ -117,7 +117,7 @@ TEST(External, oneSampleIsJudgedPointwise) {
   one.torques[0](4) += 1e-5;
   const ValidationResult wrong = validateExternal(helix(), one.file());
   EXPECT_EQ(wrong.verdict, Verdict::fail);
-  EXPECT_THAT(findCheck(wrong.checks, "torque.pointwise")->why, HasSubstr("Off: leg 5 by up to 1e-05 N m"));
+  EXPECT_THAT(findCheck(wrong.checks, "torque.pointwise")->off, HasSubstr("Off: leg 5 by up to 1e-05 N m"));
 }
 
 TEST(External, wrongTorquesDoNotWidenTheirOwnLimit) {

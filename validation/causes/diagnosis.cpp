@@ -193,7 +193,7 @@ Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torqu
   const double before = torques.file.t[window.first == 0 ? 0 : window.first - 1];
   const double after = torques.file.t[std::min(window.last + 1, torques.file.rows() - 1)];
   if (!answersRightOutside(data, before, after)) return {};
-  Explanation out{fmt::format("right but from t = {:.6g} to {:.6g} s", from, to)};
+  Explanation out{fmt::format("right but from t = {:.6g} to {:.6g} s", from, to), {}, {}, CauseClaim::interval};
   out.named = NamedCause{CauseKind::window};
   nameMotors(wrongMotors(torques), *out.named);
   out.named->from_s = from;
@@ -232,10 +232,13 @@ std::string bestOfFewNumbers(std::vector<Hypothesis> fitted) {
                      percent(first.explained()), 100 * first.of_found);
 }
 
+/// What is known without a cause.
+Explanation noCause(std::string text) { return {std::move(text), {}, {}, CauseClaim::none}; }
+
 Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torques, const AskedApart& asked) {
   const TorqueResidual data = residualOf(scenario, torques, asked);
   const std::vector<Hypothesis> fitted = fitHypotheses(scenario, data);
-  if (fitted.empty()) return {"no simple explanation"};
+  if (fitted.empty()) return noCause("no simple explanation");
   std::vector<Hypothesis> best = bestOf(fitted);
   putNarrowerFirst(best);
   const Hypothesis& first = best.front();
@@ -243,13 +246,17 @@ Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torqu
   if (explains(first)) return named(best, data, how_much + othersText(best));
   if (std::max(first.unexplained, first.of_found) < may_remain)
     return {fmt::format("a likely part: {}; what remains is up to {:.3g} times the limit of rounding and digits{}",
-                        how_much, first.beyond, othersText(best))};
+                        how_much, first.beyond, othersText(best)),
+            {},
+            {},
+            CauseClaim::part};
   if (const Explanation interval = intervalAlone(scenario, torques, data); !interval.text.empty()) return interval;
-  if (const std::string alone = loneInstants(torques); !alone.empty()) return {"no simple explanation: " + alone};
+  if (const std::string alone = loneInstants(torques); !alone.empty())
+    return noCause("no simple explanation: " + alone);
   if (const std::string some = bestOfFewNumbers(fitted); !some.empty())
-    return {"no simple explanation; the best, " + some};
-  return {isNoise(data.alongMotion()) ? "no pattern from one instant to the next, as of noise or too few digits"
-                                      : "no simple explanation"};
+    return noCause("no simple explanation; the best, " + some);
+  return noCause(isNoise(data.alongMotion()) ? "no pattern from one instant to the next, as of noise or too few digits"
+                                             : "no simple explanation");
 }
 
 }  // namespace
@@ -271,6 +278,7 @@ Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques, con
   const std::optional<Explanation> cut = same ? same : digits ? digits : cutOff(motors, torques, asked);
   Explanation explanation = cut ? *cut : explanationOf(scenario, torques, asked);
   out.cause = std::move(explanation.text);
+  out.claim = explanation.claim;
   out.named = std::move(explanation.named);
   out.others = std::move(explanation.others);
   out.terms = asked.terms;
@@ -281,16 +289,18 @@ Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques, con
 
 void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result) {
   if (diagnosis.summary.empty()) return;
-  result.cause_words = {diagnosis.deviation, diagnosis.cause};
+  result.cause_words = {diagnosis.deviation, diagnosis.cause, diagnosis.claim};
   result.cause = diagnosis.named;
   result.causes = diagnosis.others;
   result.terms = diagnosis.terms;
   nameState(result);
   result.findings.push_back({"torques that are off", diagnosis.deviation});
   result.findings.push_back({"likely cause", result.cause_words.cause});
+  const bool likely = result.cause_words.claim == CauseClaim::likely;
   for (Check& check : result.checks)
     if (check.verdict == Verdict::fail)
-      check.why += fmt::format(". Off: {}. Likely cause: {}", diagnosis.summary, result.cause_words.cause);
+      check.off =
+          fmt::format("Off: {}{}{}", diagnosis.summary, likely ? ". Likely cause: " : ": ", result.cause_words.cause);
 }
 
 }  // namespace ursula

@@ -13,9 +13,10 @@ namespace ursula {
 
 /// What an expert would say about wrong torques.
 struct Diagnosis {
-  std::string summary;                   ///< which legs, when, by how much, in one line
-  std::string deviation;                 ///< the same for each leg
-  std::string cause;                     ///< a guess that the residual supports, or a statement that there is none
+  std::string summary;    ///< which legs, when, by how much, in one line
+  std::string deviation;  ///< the same for each leg
+  std::string cause;      ///< a guess that the residual supports, or a statement that there is none
+  CauseClaim claim = CauseClaim::none;
   std::optional<NamedCause> named = {};  ///< the cause; nullopt unless exactly one explains everything
   std::vector<NamedCause> others =
       {};  ///< causes that explain the deviation equally well; all of them if `named` is empty

@@ -130,6 +130,7 @@ void nameState(ValidationResult& result) {
   if (repeat == result.terms.end() || !(repeat->error > 1e-12)) return;
   if (result.cause) result.causes.insert(result.causes.begin(), *result.cause);
   result.cause = NamedCause{CauseKind::state, "", "all"};
+  result.cause_words.claim = CauseClaim::likely;
   result.cause_words.cause = fmt::format(
       "the solver answers the same question otherwise when it is asked again, by {:.2g} of the efforts; else: {}",
       repeat->error, result.cause_words.cause);

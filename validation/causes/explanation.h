@@ -14,6 +14,7 @@ struct Explanation {
   std::string text;
   std::optional<NamedCause> named = {};
   std::vector<NamedCause> others = {};
+  CauseClaim claim = CauseClaim::likely;
 };
 
 /// Whether a cause is the length of a link.

@@ -68,7 +68,7 @@ std::string inEffortWords(const std::string& noun, const std::string& text) {
 void sayEfforts(ValidationResult& result) {
   const std::string noun = effortNoun(result);
   const auto say = [&noun](std::string& text) { text = inEffortWords(noun, text); };
-  for (Check& check : result.checks) say(check.basis), say(check.why);
+  for (Check& check : result.checks) say(check.basis), say(check.why), say(check.off);
   for (Finding& finding : result.findings) say(finding.name), say(finding.words);
   say(result.cause_words.off), say(result.cause_words.cause);
   for (Event& event : result.events) say(event.what);

@@ -69,6 +69,8 @@ Check judged(std::string name, double value, double limit, std::string unit, std
           std::move(basis), std::move(why), Reason::none, {value, 0, ""}};
 }
 
+std::string whyInFull(const Check& check) { return check.off.empty() ? check.why : check.why + ". " + check.off; }
+
 Check notMade(std::string name, std::string unit, std::string why) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   return {std::move(name),  none,         none, std::move(unit), Verdict::fail, "", std::move(why),

@@ -53,9 +53,18 @@ struct TermError {
   double error = 0;
 };
 
-/// The wrong efforts and their cause in words. Without a named cause, `cause` gives what is known.
+/// What the words of a cause claim.
+enum class CauseClaim {
+  none,      ///< no cause: they say what is known
+  interval,  ///< the efforts are right but for an interval
+  part,      ///< a cause of most of the deviation
+  likely     ///< a cause of all of it
+};
+
+/// The wrong efforts and their cause in words.
 struct CauseWords {
   std::string off, cause;
+  CauseClaim claim = CauseClaim::likely;
 };
 
 struct Scenario;
@@ -110,7 +119,11 @@ struct Check {
   LimitBy limit_by = LimitBy::derived;
   /// The largest error that would have passed, relative to the quantity's own size; NaN if unknown.
   double missed = std::numeric_limits<double>::quiet_NaN();
+  std::string off = {};  ///< the wrong efforts that make it fail, and their cause, in words; else empty
 };
+
+/// Returns `why`, followed by the wrong efforts and their cause.
+std::string whyInFull(const Check& check);
 
 /// Accepts exactly if `value <= limit` and both are finite.
 Check judged(std::string name, double value, double limit, std::string unit, std::string basis, std::string why);
