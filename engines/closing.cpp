@@ -41,12 +41,9 @@ Vector6d closedEfforts(const OpenTree& tree, const Manipulator& manipulator) {
 }
 
 Vector6d openEfforts(const OpenTree& tree, const Manipulator& manipulator) {
-  Vector6d out;
-  for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = manipulator.motors()[static_cast<std::size_t>(m)];
-    out(m) = tree.legs[static_cast<std::size_t>(motor.leg)].force(motor.joint);
-  }
-  return out;
+  return forMotors(manipulator, [&](const Motor& motor) {
+    return tree.legs[static_cast<std::size_t>(motor.leg)].force(motor.joint);
+  });
 }
 
 Vector6d leastEfforts(const OpenTree& tree, const Manipulator& manipulator) {
@@ -60,12 +57,10 @@ Vector6d leastEfforts(const OpenTree& tree, const Manipulator& manipulator) {
 /// Each leg satisfies J δ_leg − P δ = −gap, and δ_leg is zero at its motors.
 Vector6d displacement(const OpenTree& tree, const std::array<Vector3d, leg_count>& gaps,
                       const Manipulator& manipulator) {
-  Vector6d right;
-  for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = manipulator.motors()[static_cast<std::size_t>(m)];
+  const Vector6d right = forMotors(manipulator, [&](const Motor& motor) {
     const auto leg = static_cast<std::size_t>(motor.leg);
-    right(m) = (tree.legs[leg].J.inverse() * gaps[leg])(motor.joint);
-  }
+    return (tree.legs[leg].J.inverse() * gaps[leg])(motor.joint);
+  });
   return motorMap(mapsOf(tree, manipulator), manipulator).transpose().partialPivLu().solve(right);
 }
 

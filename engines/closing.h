@@ -9,6 +9,14 @@ namespace ursula {
 // constraints. [N; 1]ᵀ removes the multipliers from the forces (García de Jalón and Bayo, Kinematic and Dynamic
 // Simulation of Multibody Systems, 1994, sect. 5.3), and six equations are left. These functions allocate nothing.
 
+/// Returns `of(motor)` for each motor.
+template <class Of>
+Vector6d forMotors(const Manipulator& manipulator, const Of& of) {
+  Vector6d out;
+  for (int m = 0; m < motor_count; ++m) out(m) = of(manipulator.motors()[static_cast<std::size_t>(m)]);
+  return out;
+}
+
 /// Returns the motors' efforts that balance the tree's forces with closed loops; N·m or N, in motor order.
 Vector6d closedEfforts(const OpenTree& tree, const Manipulator& manipulator);
 

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "engines/engine_module.h"
 #include "engines/further_engines.h"
+#include "engines/loop_engine.h"
 #include "engines/mujoco/mujoco_loop.h"
 
 namespace ursula {

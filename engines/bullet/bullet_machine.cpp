@@ -32,7 +32,8 @@ BulletMachine::Principal BulletMachine::principalOf(const Matrix3d& inertia) {
   return {axes, solver.eigenvalues()};
 }
 
-BulletMachine::BulletMachine(const Manipulator& from) : manipulator(from), states_(at(from.legCount())) {
+BulletMachine::BulletMachine(const Manipulator& from)
+    : EngineMachine(from, from.platform().center_of_mass), states_(at(from.legCount())) {
   for (int i = 0; i < from.legCount(); ++i) addLeg(from.leg(i));
   of_platform_ = principalOf(from.platform().inertia);
   platform_ = std::make_unique<btMultiBody>(0, from.platform().mass, toBullet(of_platform_.moments), false, false);
@@ -160,36 +161,20 @@ void BulletMachine::readMaps(PlacedTree& out) {
   }
 }
 
-Vector3d BulletMachine::rates(int leg) const {
-  const btMultiBody& of = *legs_[at(leg)];
-  return {of.getJointVel(0), of.getJointVel(1), of.getJointVel(2)};
-}
-
-Matrix3d BulletMachine::orientation() const {
+ChainBody BulletMachine::platformBody() const {
+  ChainBody out;
   const btQuaternion q = platform_->getWorldToBaseRot();
   const Eigen::Quaterniond turned(q.w(), q.x(), q.y(), q.z());
-  return turned.normalized().toRotationMatrix().transpose() * of_platform_.axes.transpose();
-}
-
-Vector3d BulletMachine::position() const {
-  return vectorOf(platform_->getBasePos()) - orientation() * manipulator.platform().center_of_mass;
-}
-
-Vector6d BulletMachine::loadAtCenter(const Load* load, double t) const {
-  Vector6d out = loadInBase(load, t, orientation());
-  const Vector3d r = orientation() * manipulator.platform().center_of_mass;
-  out.head<3>() -= r.cross(Vector3d(out.tail<3>()));
+  out.frame.linear() = turned.normalized().toRotationMatrix().transpose() * of_platform_.axes.transpose();
+  out.frame.translation() = vectorOf(platform_->getBasePos());
+  out.omega = vectorOf(platform_->getBaseOmega());
+  out.velocity = vectorOf(platform_->getBaseVel());
   return out;
 }
 
-void BulletMachine::addFrictionAndLoad(const Load* load, double t) {
-  for (int i = 0; i < manipulator.legCount(); ++i) {
-    const Vector3d acts = frictionOn(manipulator.leg(i), rates(i));
-    for (int j = 0; j < 3; ++j) body(i).addJointTorque(j, acts(j));
-  }
-  const Vector6d w = loadAtCenter(load, t);
-  platform_->addBaseTorque(toBullet(Vector3d(w.head<3>())));
-  platform_->addBaseForce(toBullet(Vector3d(w.tail<3>())));
+void BulletMachine::addWrench(const Vector6d& moment_and_force) {
+  platform_->addBaseTorque(toBullet(Vector3d(moment_and_force.head<3>())));
+  platform_->addBaseForce(toBullet(Vector3d(moment_and_force.tail<3>())));
 }
 
 /// Bullet gives velocities in the bodies' frames.
@@ -211,14 +196,6 @@ double BulletMachine::energyOf(btMultiBody& body) {
 double BulletMachine::energy() {
   double out = energyOf(*platform_);
   for (const auto& leg : legs_) out += energyOf(*leg);
-  return out;
-}
-
-double BulletMachine::powerOfFrictionAndLoad(const Load* load, double t) const {
-  const Vector6d w = loadAtCenter(load, t);
-  double out =
-      w.head<3>().dot(vectorOf(platform_->getBaseOmega())) + w.tail<3>().dot(vectorOf(platform_->getBaseVel()));
-  for (int i = 0; i < manipulator.legCount(); ++i) out += frictionOn(manipulator.leg(i), rates(i)).dot(rates(i));
   return out;
 }
 

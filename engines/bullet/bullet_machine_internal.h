@@ -11,20 +11,22 @@
 #include <memory>
 #include <vector>
 
-#include "engines/leg_motion.h"
-#include "engines/loop_engine.h"
+#include "engines/engine_machine.h"
 
 namespace ursula::bullet_engine {
 
 /// By default Bullet clips a constraint's impulses at 100 N·s, and speeds at 100.
 inline constexpr double unlimited = 1e30;
 
+class BulletWorld;
+
 /// Multibodies of Bullet: each leg with three links, of which one has no mass, and the platform as a free base. Bullet
 /// has a body's frame at its mass centre, with its principal axes. The platform's speeds are [ω; velocity of its mass
 /// centre] in B.
-class BulletMachine {
+class BulletMachine : public EngineMachine {
  public:
   explicit BulletMachine(const Manipulator& from);
+  ~BulletMachine() override;
 
   /// Sets the legs and the platform to the motion with closed loops. Throws std::domain_error if a leg cannot reach.
   void set(const Motion<double>& motion, bool with_bias);
@@ -32,23 +34,23 @@ class BulletMachine {
   Vector3d forces(int leg, const Vector3d& u_dot);
   /// The same for the platform; `u_dot` is [α; acceleration of the mass centre].
   Vector6d platformForces(const Vector6d& u_dot);
-  void readMaps(PlacedTree& out);
-  /// Adds friction and load until the world's next step.
-  void addFrictionAndLoad(const Load* load, double t);
+
+  double coordinate(int leg, int j) const override { return legs_[static_cast<std::size_t>(leg)]->getJointPos(j); }
+  double rate(int leg, int j) const override { return legs_[static_cast<std::size_t>(leg)]->getJointVel(j); }
+  ChainBody platformBody() const override;
+  double energy() override;
+  void readMaps(PlacedTree& out) override;
+  void addEffort(int leg, int j, double effort) override { body(leg).addJointTorque(j, effort); }
+  void addWrench(const Vector6d& moment_and_force) override;
+  void step(double h) override;
 
   const LegState& leg(int i) const { return states_[static_cast<std::size_t>(i)]; }
   btMultiBody& body(int leg) { return *legs_[static_cast<std::size_t>(leg)]; }
   btMultiBody& platform() { return *platform_; }
   btVector3 tip(int leg) const;            ///< in the frame of the leg's last link
   btVector3 platformPoint(int leg) const;  ///< in the platform's frame
-  Vector3d rates(int leg) const;
-  Matrix3d orientation() const;  ///< of M
-  Vector3d position() const;     ///< of P
-  double energy();
-  double powerOfFrictionAndLoad(const Load* load, double t) const;
-  Vector6d loadAtCenter(const Load* load, double t) const;
 
-  Manipulator manipulator;
+  std::unique_ptr<BulletWorld> world;  ///< steps the machine; null while its loops are open
 
  private:
   struct Principal {
@@ -87,8 +89,7 @@ class BulletWorld {
 
   /// Puts a motor on a leg's coordinate that brings it to the rate within the next step.
   void drive(int leg, int j, double rate);
-  /// Throws std::runtime_error if Bullet gives up.
-  void step(double h);
+  void step(double h) { world_->stepSimulation(h, 0); }
   /// Returns the motor's effort in the last step, of `h`; motors count in the order of `drive`.
   double effort(std::size_t motor, double h) const;
 

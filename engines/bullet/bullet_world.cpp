@@ -71,10 +71,12 @@ void BulletWorld::drive(int leg, int j, double rate) {
   world_->addMultiBodyConstraint(motors_.back().get());
 }
 
-void BulletWorld::step(double h) {
-  world_->stepSimulation(h, 0);
-  if (!machine_.position().allFinite()) throw std::runtime_error("Bullet's state is not finite");
+void BulletMachine::step(double h) {
+  world->step(h);
+  if (!position().allFinite()) throw std::runtime_error("Bullet's state is not finite");
 }
+
+BulletMachine::~BulletMachine() { world.reset(); }  // while its bodies are there
 
 double BulletWorld::effort(std::size_t motor, double h) const { return motors_[motor]->getAppliedImpulse(0) / h; }
 

@@ -3,13 +3,17 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <dart/constraint/BallJointConstraint.hpp>
+#include <dart/constraint/ConstraintSolver.hpp>
 #include <dart/dynamics/PrismaticJoint.hpp>
 #include <dart/dynamics/RevoluteJoint.hpp>
 #include <dart/dynamics/UniversalJoint.hpp>
+#include <stdexcept>
 #include <vector>
 
 #include "engines/dart/dart_machine_internal.h"
-#include "engines/leg_motion.h"
 
 namespace ursula::dart_engine {
 namespace {
@@ -68,7 +72,7 @@ Eigen::Isometry3d placeOf(const Matrix3d& R, const Vector3d& at) {
 
 }  // namespace
 
-DartMachine::DartMachine(const Manipulator& from) : manipulator(from), skeleton(dd::Skeleton::create("machine")) {
+DartMachine::DartMachine(const Manipulator& from) : EngineMachine(from), skeleton(dd::Skeleton::create("machine")) {
   skeleton->setGravity(from.gravity());
   for (int i = 0; i < from.legCount(); ++i) addLeg(from.leg(i), std::to_string(i));
   dd::BodyNode::AspectProperties body("platform");
@@ -102,9 +106,9 @@ void DartMachine::move(const Motion<double>& motion, bool with_bias) {
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const Leg& from = manipulator.leg(static_cast<int>(i));
     const auto set = [&leg = legs[i]](const Vector3d& values, auto setter) {
-      for (std::size_t j = 0; j < 3; ++j) {
+      for (int j = 0; j < 3; ++j) {
         const auto [joint, which] = leg.place(j);
-        (joint->*setter)(which, values(static_cast<int>(j)));
+        (joint->*setter)(which, values(j));
       }
     };
     const Vector3d& b = from.platform_point;
@@ -127,7 +131,7 @@ void DartMachine::move(const Motion<double>& motion, bool with_bias) {
   }
 }
 
-void DartMachine::readMaps(PlacedTree& out) const {
+void DartMachine::readMaps(PlacedTree& out) {
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const Vector3d& b = manipulator.leg(static_cast<int>(i)).platform_point;
     out.legs[i].J = legs[i].distal->getLinearJacobian(legs[i].tip, dd::Frame::World());
@@ -136,13 +140,78 @@ void DartMachine::readMaps(PlacedTree& out) const {
   }
 }
 
-Vector3d DartMachine::friction(int index) const {
-  Vector3d rates;
-  for (std::size_t j = 0; j < 3; ++j) {
-    const auto [joint, which] = legs[static_cast<std::size_t>(index)].place(j);
-    rates(static_cast<int>(j)) = joint->getVelocity(which);
+double DartMachine::coordinate(int leg, int j) const {
+  const auto [joint, which] = legs[static_cast<std::size_t>(leg)].place(j);
+  return joint->getPosition(which);
+}
+
+double DartMachine::rate(int leg, int j) const {
+  const auto [joint, which] = legs[static_cast<std::size_t>(leg)].place(j);
+  return joint->getVelocity(which);
+}
+
+ChainBody DartMachine::platformBody() const {
+  ChainBody out;
+  out.frame = platform->getWorldTransform();
+  out.omega = platform->getAngularVelocity();
+  out.velocity = platform->getLinearVelocity();
+  return out;
+}
+
+void DartMachine::close(const Rigidity& rigidity) {
+  rigidity_ = rigidity;
+  world_ = dart::simulation::World::create();
+  world_->setGravity(manipulator.gravity());
+  world_->setTimeStep(rigidity.step);
+  world_->addSkeleton(skeleton);
+  chooseUnit();
+  for (const DartLeg& leg : legs)
+    world_->getConstraintSolver()->addConstraint(std::make_shared<dart::constraint::BallJointConstraint>(
+        leg.distal, platform, leg.distal->getWorldTransform() * leg.tip));
+}
+
+/// DART ends the process if its constraints' matrix is not symmetric to 1e-6. This unit of mass brings the matrix's
+/// entries near 1. All forces are in that unit.
+void DartMachine::chooseUnit() {
+  PlacedTree tree;
+  readMaps(tree);
+  const Eigen::MatrixXd M = skeleton->getMassMatrix();
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    const auto first = static_cast<Eigen::Index>(legs[i].joints[0]->getIndexInSkeleton(0));
+    const Matrix3d& J = tree.legs[i].J;
+    unit_ = std::max(i == 0 ? 0 : unit_, (J * M.block<3, 3>(first, first).inverse() * J.transpose()).norm());
   }
-  return frictionOn(manipulator.leg(index), rates);
+  if (!std::isfinite(unit_) || !(unit_ > 0)) throw std::runtime_error("DART moves no legs without mass");
+  for (dd::BodyNode* body : skeleton->getBodyNodes()) {
+    const dd::Inertia& inertia = body->getInertia();
+    body->setInertia(
+        dd::Inertia(unit_ * inertia.getMass(), inertia.getLocalCOM(), Matrix3d(unit_ * inertia.getMoment())));
+  }
+}
+
+/// DART's own potential energy assumes masses at the bodies' origins.
+double DartMachine::energy() {
+  const double potential = skeleton->getMass() * manipulator.gravity().dot(skeleton->getCOM());
+  return (skeleton->computeKineticEnergy() - potential) / unit_;
+}
+
+void DartMachine::addEffort(int leg, int j, double effort) {
+  const auto [joint, which] = legs[static_cast<std::size_t>(leg)].place(j);
+  joint->setForce(which, joint->getForce(which) + unit_ * effort);
+}
+
+void DartMachine::addWrench(const Vector6d& moment_and_force) {
+  platform->addExtForce(unit_ * moment_and_force.tail<3>(), Vector3d::Zero(), false, true);
+  platform->addExtTorque(unit_ * moment_and_force.head<3>(), false);
+}
+
+/// DART's constants are global, so each step sets them.
+void DartMachine::step(double) {
+  using dart::constraint::DynamicJointConstraint;
+  DynamicJointConstraint::setErrorReductionParameter(rigidity_.settings.at(0).second);
+  DynamicJointConstraint::setConstraintForceMixing(rigidity_.settings.at(1).second);
+  world_->step();
+  if (!skeleton->getPositions().allFinite()) throw std::runtime_error("DART's state is not finite");
 }
 
 }  // namespace ursula::dart_engine

@@ -6,7 +6,6 @@
 
 #include "engines/loop_engine.h"
 #include "engines/maximal/maximal_loop.h"
-#include "engines/maximal/maximal_loop_internal.h"
 
 namespace ursula {
 namespace {

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "engines/maximal/maximal_loop_internal.h"
-
 namespace ursula {
 namespace {
 

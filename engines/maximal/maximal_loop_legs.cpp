@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "engines/maximal/maximal_loop_internal.h"
+#include "engines/maximal/maximal_loop.h"
 
 namespace ursula::maximal {
 namespace {

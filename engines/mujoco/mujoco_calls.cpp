@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engines/closing.h"
 #include "engines/loop_engine.h"
 #include "engines/mujoco/mujoco_loop_internal.h"
 
@@ -58,14 +59,11 @@ void readGaps(const mjData& data, int legs, PlacedTree& out) {
 
 /// Builds the machine with loops that MuJoCo's `connect` closes at this softness.
 Connected connected(const Manipulator& manipulator, const Vector3d& origin, const Softness& softness) {
-  Connected out;
-  out.model = mujoco::buildModel(manipulator, origin, mujoco::Closure::connected);
+  Connected out = mujoco::connected(manipulator, origin);
   for (int leg = 0; leg < manipulator.legCount(); ++leg) {
     std::copy(softness.solref.begin(), softness.solref.end(), out.model->eq_solref + mjNREF * leg);
     std::copy(softness.solimp.begin(), softness.solimp.end(), out.model->eq_solimp + mjNIMP * leg);
   }
-  out.data.reset(mj_makeData(out.model.get()));
-  if (!out.data) throw std::runtime_error("MuJoCo: no memory for its data");
   return out;
 }
 
@@ -105,11 +103,10 @@ class MujocoStepped : public SteppedLoop {
   }
 
   void read(State& out) override {
-    for (int m = 0; m < motor_count; ++m) {
-      const Motor& motor = at_.manipulator.motors()[static_cast<std::size_t>(m)];
-      const int dof = dofOf(motor.leg, motor.joint);
-      out.q(m) = own_.data->qpos[dof] - (motor.joint == 0 ? at_.offset_of_phi[static_cast<std::size_t>(motor.leg)] : 0);
-    }
+    out.q = forMotors(at_.manipulator, [&](const Motor& motor) {
+      return own_.data->qpos[dofOf(motor.leg, motor.joint)] -
+             (motor.joint == 0 ? at_.offset_of_phi[static_cast<std::size_t>(motor.leg)] : 0);
+    });
     mj_forward(own_.model.get(), own_.data.get());  // after a step only the positions are up to date
     out.p = platform().p;
     out.energy = own_.data->energy[0] + own_.data->energy[1];
@@ -186,12 +183,7 @@ class MujocoCalls : public LoopEngine {
     mj_inverse(own.model.get(), own.data.get());
     const VectorOfDofs forces =
         Eigen::Map<const VectorOfDofs>(own.data->qfrc_inverse, at_.dofs) - at_.given(*own.model, *own.data, motion);
-    Vector6d out;
-    for (int m = 0; m < motor_count; ++m) {
-      const Motor& motor = manipulator().motors()[static_cast<std::size_t>(m)];
-      out(m) = forces(dofOf(motor.leg, motor.joint));
-    }
-    return out;
+    return forMotors(manipulator(), [&](const Motor& motor) { return forces(dofOf(motor.leg, motor.joint)); });
   }
 
  private:

@@ -166,8 +166,7 @@ void writeLeg(mjModel& model, int index, const Leg& leg, const Vector3d& origin)
 /// Makes the constraints as hard as MuJoCo allows. It sets the constants that MuJoCo derives from inertias when it
 /// parses a text, and then restores the constraints' points from the sites, because that call moves them.
 void connect(mjModel& model, int legs) {
-  const Data data(mj_makeData(&model));
-  if (!data) throwMessage("no memory for its data");
+  const Data data = dataOf(model);
   mj_setConst(&model, data.get());
   for (int leg = 0; leg < legs; ++leg) {
     std::copy_n(model.site_pos + 3 * siteOnLeg(leg), 3, model.eq_data + mjNEQDATA * leg);
@@ -207,6 +206,19 @@ Model buildModel(const Manipulator& manipulator, const Vector3d& origin, Closure
   }
   if (closure == Closure::connected) connect(*model, legs);
   return model;
+}
+
+Data dataOf(const mjModel& model) {
+  Data out(mj_makeData(&model));
+  if (!out) throwMessage("no memory for its data");
+  return out;
+}
+
+Connected connected(const Manipulator& manipulator, const Vector3d& origin) {
+  Connected out;
+  out.model = buildModel(manipulator, origin, Closure::connected);
+  out.data = dataOf(*out.model);
+  return out;
 }
 
 }  // namespace ursula::mujoco

@@ -49,11 +49,15 @@ using GapJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, mos
 using VectorOfGaps = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_gaps, 1>;
 using VectorOfDofs = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_dofs, 1>;
 
+/// Throws std::runtime_error if there is no memory.
+Data dataOf(const mjModel& model);
+
 /// The machine with loops that MuJoCo closes.
 struct Connected {
   Model model;
   Data data;
 };
+Connected connected(const Manipulator& manipulator, const Vector3d& origin);
 
 }  // namespace ursula::mujoco
 

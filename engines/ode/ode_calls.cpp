@@ -2,10 +2,9 @@
 // step with driven joints takes its place.
 
 #include <Eigen/Cholesky>
-#include <stdexcept>
 #include <utility>
 
-#include "engines/engine_module.h"
+#include "engines/closing.h"
 #include "engines/ode/ode_machine_internal.h"
 
 namespace ursula {
@@ -16,46 +15,6 @@ using ode_engine::OdeMachine, ode_engine::Softness;
 constexpr Softness usual = {0.2, 1e-10};  // ODE's defaults in double precision
 constexpr double usual_step = 0.001;      // s
 
-class OdeStepped : public SteppedLoop {
- public:
-  OdeStepped(const Manipulator& manipulator, std::shared_ptr<const Load> load, const Rigidity& rigidity)
-      : manipulator_(manipulator), load_(std::move(load)), rigidity_(rigidity) {
-    for (const Motor& motor : manipulator.motors())
-      if (manipulator.leg(motor.leg).rotor_inertia.on(motor.coordinate) != 0)
-        throw std::runtime_error("ODE moves no rotors");
-  }
-
-  void start(const Motion<double>& motion) override {
-    time_ = motion.t;
-    machine_ = std::make_unique<OdeMachine>(manipulator_, motion, OdeMachine::Loops::closed,
-                                            Softness{rigidity_.settings[0].second, rigidity_.settings[1].second});
-  }
-
-  void step(const Vector6d& efforts) override {
-    machine_->addFrictionAndLoad(load_.get(), time_);
-    for (int m = 0; m < motor_count; ++m) machine_->addEffort(motor(m).leg, motor(m).joint, efforts(m));
-    machine_->step(rigidity_.step, static_cast<int>(rigidity_.settings[2].second));
-    time_ += rigidity_.step;
-  }
-
-  void read(State& out) override {
-    for (int m = 0; m < motor_count; ++m) out.q(m) = machine_->coordinate(motor(m).leg, motor(m).joint);
-    out.p = machine_->position();
-    out.energy = machine_->energy();
-    out.power = machine_->powerOfFrictionAndLoad(load_.get(), time_);
-    machine_->readMaps(out.tree);
-  }
-
- private:
-  const Motor& motor(int m) const { return manipulator_.motors()[static_cast<std::size_t>(m)]; }
-
-  Manipulator manipulator_;
-  std::shared_ptr<const Load> load_;
-  Rigidity rigidity_;
-  std::unique_ptr<OdeMachine> machine_;
-  double time_ = 0;
-};
-
 class OdeCalls : public LoopEngine {
  public:
   OdeCalls(const Manipulator& manipulator, std::shared_ptr<const Load> load)
@@ -65,12 +24,7 @@ class OdeCalls : public LoopEngine {
     OdeMachine& machine = machineFor(tree_machine_, motion, OdeMachine::Loops::open, {});
     stepTo(machine, motion, bias);
     for (int i = 0; i < manipulator().legCount(); ++i)
-      for (int j = 0; j < 3; ++j) {
-        const Leg& leg = manipulator().leg(i);
-        const double rotor = leg.rotor_inertia.on(rowOf(leg.kind).coordinates[static_cast<std::size_t>(j)]);
-        tree_.legs[static_cast<std::size_t>(i)].force(j) =
-            machine.effort(i, j) + rotor * machine.leg(i).accelerations(j);
-      }
+      for (int j = 0; j < 3; ++j) tree_.legs[static_cast<std::size_t>(i)].force(j) = effort(machine, i, j);
     setPlatform(motion);
     machine.set(motion, true);
     machine.readMaps(tree_);
@@ -89,7 +43,13 @@ class OdeCalls : public LoopEngine {
   }
 
   std::unique_ptr<SteppedLoop> stepped(const Rigidity& rigidity) const override {
-    return std::make_unique<OdeStepped>(manipulator(), load_, rigidity);
+    return steppedMachine("ODE", manipulator(), load_, rigidity.step,
+                          [from = manipulator(), set = rigidity.settings](const Motion<double>& start) {
+                            auto out = std::make_unique<OdeMachine>(from, start, OdeMachine::Loops::closed,
+                                                                    Softness{set[0].second, set[1].second});
+                            out->quick_iterations = static_cast<int>(set[2].second);
+                            return out;
+                          });
   }
 
  protected:
@@ -103,8 +63,8 @@ class OdeCalls : public LoopEngine {
     for (const Motor& motor : manipulator().motors())
       machine.drive(motor.leg, motor.joint,
                     machine.leg(motor.leg).rates(motor.joint) + h * machine.leg(motor.leg).accelerations(motor.joint));
-    machine.step(h, 0);
-    return motorsOf(machine);
+    machine.step(h);
+    return forMotors(manipulator(), [&](const Motor& motor) { return effort(machine, motor.leg, motor.joint); });
   }
 
  private:
@@ -124,17 +84,12 @@ class OdeCalls : public LoopEngine {
     machine.addFrictionAndLoad(load_.get(), motion.t);
     machine.addGyroscopic();
     machine.goBack(h);
-    machine.step(h, 0);
+    machine.step(h);
   }
 
-  Vector6d motorsOf(const OdeMachine& machine) const {
-    Vector6d out;
-    for (int m = 0; m < motor_count; ++m) {
-      const Motor& motor = manipulator().motors()[static_cast<std::size_t>(m)];
-      const double rotor = manipulator().leg(motor.leg).rotor_inertia.on(motor.coordinate);
-      out(m) = machine.effort(motor.leg, motor.joint) + rotor * machine.leg(motor.leg).accelerations(motor.joint);
-    }
-    return out;
+  /// The effort of the last step, with the rotor's.
+  double effort(const OdeMachine& machine, int leg, int j) const {
+    return machine.effort(leg, j) + rotorForce(manipulator().leg(leg), j, machine.leg(leg).accelerations(j));
   }
 
   /// The platform's force follows from Newton and Euler, because no joint of ODE acts on it.

@@ -37,7 +37,10 @@ void initialize() {
 }  // namespace
 
 OdeMachine::OdeMachine(const Manipulator& from, const Motion<double>& motion, Loops loops, const Softness& softness)
-    : manipulator(from), joints_(at(from.legCount())), feedback_(at(from.legCount())), states_(at(from.legCount())) {
+    : EngineMachine(from, from.platform().center_of_mass),
+      joints_(at(from.legCount())),
+      feedback_(at(from.legCount())),
+      states_(at(from.legCount())) {
   initialize();
   world_.reset(dWorldCreate());
   dWorldSetGravity(world_.get(), from.gravity().x(), from.gravity().y(), from.gravity().z());
@@ -197,18 +200,8 @@ double OdeMachine::effort(int leg, int j) const {
   return axis.dot(moment + (c - state.at.anchors[at(j)]).cross(force));
 }
 
-Vector6d OdeMachine::loadAtCenter(const Load* load, double t) const {
-  Vector6d out = loadInBase(load, t, orientation());
-  out.head<3>() -= Vector3d(orientation() * platform().center).cross(Vector3d(out.tail<3>()));
-  return out;
-}
-
-void OdeMachine::addFrictionAndLoad(const Load* load, double t) {
-  for (int i = 0; i < manipulator.legCount(); ++i) {
-    const Vector3d acts = frictionOn(manipulator.leg(i), {rate(i, 0), rate(i, 1), rate(i, 2)});
-    for (int j = 0; j < 3; ++j) addEffort(i, j, acts(j));
-  }
-  const Vector6d w = loadAtCenter(load, t);
+void OdeMachine::addWrench(const Vector6d& moment_and_force) {
+  const Vector6d& w = moment_and_force;
   dBodyAddTorque(platform().id, w(0), w(1), w(2));
   dBodyAddForce(platform().id, w(3), w(4), w(5));
 }
@@ -223,17 +216,22 @@ void OdeMachine::addGyroscopic() {
   }
 }
 
-void OdeMachine::step(double h, int quick_iterations) {
+void OdeMachine::step(double h) {
   if (quick_iterations > 0) dWorldSetQuickStepNumIterations(world_.get(), quick_iterations);
   const int done = quick_iterations > 0 ? dWorldQuickStep(world_.get(), h) : dWorldStep(world_.get(), h);
   if (done == 0 || !position().allFinite()) throw std::runtime_error("ODE's state is not finite");
 }
 
-Vector3d OdeMachine::position() const { return centerOf(platform().id) - orientation() * platform().center; }
+ChainBody OdeMachine::platformBody() const {
+  ChainBody out;
+  out.frame.linear() = axesOf(platform().id);
+  out.frame.translation() = centerOf(platform().id);
+  out.omega = omegaOf(platform().id);
+  out.velocity = vectorOf(dBodyGetLinearVel(platform().id));
+  return out;
+}
 
-Matrix3d OdeMachine::orientation() const { return axesOf(platform().id); }
-
-double OdeMachine::energy() const {
+double OdeMachine::energy() {
   double out = 0;
   for (const Body& body : bodies_) {
     const Vector3d own = axesOf(body.id).transpose() * omegaOf(body.id);
@@ -244,21 +242,12 @@ double OdeMachine::energy() const {
   return out;
 }
 
-double OdeMachine::powerOfFrictionAndLoad(const Load* load, double t) const {
-  const Vector6d w = loadAtCenter(load, t);
-  double out = w.head<3>().dot(omegaOf(platform().id)) + w.tail<3>().dot(vectorOf(dBodyGetLinearVel(platform().id)));
-  for (int i = 0; i < manipulator.legCount(); ++i) {
-    const Vector3d rates(rate(i, 0), rate(i, 1), rate(i, 2));
-    out += frictionOn(manipulator.leg(i), rates).dot(rates);
-  }
-  return out;
-}
-
 /// The platform's speeds are [ω; ṗ] in B.
-void OdeMachine::readMaps(PlacedTree& out) const {
+void OdeMachine::readMaps(PlacedTree& out) {
+  const Matrix3d Q = platformBody().frame.linear();
   for (int i = 0; i < manipulator.legCount(); ++i) {
     const dBodyID distal = bodies_[at(2 * i + 1)].id;
-    const Vector3d arm = orientation() * manipulator.leg(i).platform_point;
+    const Vector3d arm = Q * manipulator.leg(i).platform_point;
     const Vector3d tip = centerOf(distal) + axesOf(distal) * (chains_[at(i)].tip - chains_[at(i)].centers[1]);
     out.gaps[at(i)] = tip - position() - arm;
     for (int j = 0; j < 3; ++j)

@@ -6,8 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "engines/leg_motion.h"
-#include "engines/loop_engine.h"
+#include "engines/engine_machine.h"
 
 namespace ursula::ode_engine {
 
@@ -19,7 +18,7 @@ struct Softness {
 
 /// The machine in ODE, where each link and the platform is a body with six coordinates. Universals, hinges and sliders
 /// hold the legs, and balls close the loops. Body 1 of a joint is the outer one.
-class OdeMachine {
+class OdeMachine : public EngineMachine {
  public:
   enum class Loops { open, closed };
 
@@ -30,29 +29,24 @@ class OdeMachine {
   void set(const Motion<double>& motion, bool with_bias);
   /// Subtracts from all twists `h` times the twist rates that were set.
   void goBack(double h);
-  /// Adds friction at the present rates and the load.
-  void addFrictionAndLoad(const Load* load, double t);
   /// Switches off ODE's gyroscopic moments, which are exact only to first order in the step, and adds the exact ones.
   void addGyroscopic();
-  /// Adds an effort to the leg's j-th coordinate until the next step.
-  void addEffort(int leg, int j, double effort);
   /// Makes a motor bring the leg's j-th coordinate to this rate within the next step, with any effort.
   void drive(int leg, int j, double rate);
-  /// Throws std::runtime_error if ODE gives up.
-  void step(double h, int quick_iterations);
   /// Returns the effort of the coordinate's motor in the last step.
   double effort(int leg, int j) const;
 
   const LegState& leg(int i) const { return states_[static_cast<std::size_t>(i)]; }
-  double coordinate(int leg, int j) const;  ///< counted from the pose at which the machine was built
-  double rate(int leg, int j) const;
-  Vector3d position() const;  ///< of P
-  Matrix3d orientation() const;
-  double energy() const;
-  double powerOfFrictionAndLoad(const Load* load, double t) const;
-  void readMaps(PlacedTree& out) const;
+  double coordinate(int leg, int j) const override;  ///< counted from the pose at which the machine was built
+  double rate(int leg, int j) const override;
+  ChainBody platformBody() const override;
+  double energy() override;
+  void readMaps(PlacedTree& out) override;
+  void addEffort(int leg, int j, double effort) override;
+  void addWrench(const Vector6d& moment_and_force) override;
+  void step(double h) override;
 
-  Manipulator manipulator;
+  int quick_iterations = 0;  ///< of ODE's quick step; 0 for its exact one
 
  private:
   struct Body {
@@ -79,7 +73,6 @@ class OdeMachine {
   Vector3d axis(int leg, int j) const;
   Vector3d anchor(int leg, int j) const;
   const Body& platform() const { return bodies_.back(); }
-  Vector6d loadAtCenter(const Load* load, double t) const;
 
   std::unique_ptr<dxWorld, EndOfWorld> world_;
   std::vector<Body> bodies_;  ///< of leg i: 2i and 2i + 1; the platform
