@@ -32,11 +32,7 @@ struct MultiplicationMatrix {
 /// 0 ≤ index < chart_count. Does not allocate; M is unusable if pivot is 0 or NaN.
 MultiplicationMatrix multiplicationMatrix(const ThreeQuadrics& quadrics, int index);
 
-}  // namespace ursula::direct
-
 // All common roots of three quadrics, polished and counted. Internal to nocsolver/direct_kinematics*.
-
-namespace ursula::direct {
 
 /// A common root, unit length; it stands for both of a conjugate pair.
 struct Root {
@@ -67,11 +63,7 @@ double residual(const ThreeQuadrics& quadrics, const Eigen::Matrix<Scalar, 4, 1>
 /// counted. Does not allocate.
 Roots findRoots(const ThreeQuadrics& quadrics, double rounding);
 
-}  // namespace ursula::direct
-
 // The six planes Πᵢ in which the motors hold the points Bᵢ. Internal to nocsolver/direct_kinematics*.
-
-namespace ursula::direct {
 
 /// A pose in Newton's method.
 struct PlacedPlatform {

@@ -50,11 +50,7 @@ struct Multiplication {
 /// Computes it in chart `index` of `chart_count`. Allocates.
 Multiplication multiplication(const Section& section, int index);
 
-}  // namespace ursula::ups
-
 // All complex solutions of six legs, polished and counted. Internal to nocsolver/ups_poses*.
-
-namespace ursula::ups {
 
 /// A pose, over the real or the complex numbers.
 template <class Scalar>
@@ -92,11 +88,7 @@ Roots findRoots(const Legs& legs);
 /// and shows whether all but finitely many are there.
 Roots trackRoots(const Legs& legs);
 
-}  // namespace ursula::ups
-
 // Newton's method on |p + Qb − a|² = d², over the real or the complex numbers. Internal to nocsolver/ups_poses*.
-
-namespace ursula::ups {
 
 template <class Scalar>
 using Vec3 = Eigen::Matrix<Scalar, 3, 1>;
@@ -192,11 +184,7 @@ bool polish(const Legs& legs, Placed<Scalar>& pose) {
   return solved;
 }
 
-}  // namespace ursula::ups
-
 // Separates and counts solutions. Internal to nocsolver/ups_poses*.
-
-namespace ursula::ups {
 
 using ComplexPose = Placed<std::complex<double>>;
 using ComplexCoordinates = Eigen::Matrix<std::complex<double>, coordinate_count, 1>;

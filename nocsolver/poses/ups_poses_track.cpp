@@ -30,34 +30,10 @@ Roots rootsInChart(const Legs& legs, const LegSection& section, int index) {
   return roots;
 }
 
-}  // namespace
-
-double smallestPivot() { return 16 * std::pow(Eigen::NumTraits<double>::epsilon(), 0.75); }
-
-/// If a solution lies in a chart's plane at infinity, that chart fails; this hardly happens to two.
-Roots findRoots(const Legs& legs) {
-  const LegSection section = legSection(legs);
-  Roots best;
-  int faulty = 0;
-  for (int index = 0; index < chart_count && faulty < 2 && !best.complete(); ++index) {
-    const Roots roots = rootsInChart(legs, section, index);
-    const double pivot = std::max(best.pivot, roots.pivot);
-    if (!(roots.pivot > smallestPivot())) ++faulty;
-    if (roots.all() > best.all()) best = roots;
-    best.pivot = pivot;
-  }
-  return best;
-}
-
-}  // namespace ursula::ups
-
 // A nearby machine, perturbed by s times a fixed generic amount, has 40 solutions for all but a few s. They are
 // followed from s = 1 to 0 on a curved path through the complex plane that avoids those few. Each isolated pose of the
 // machine ends as many paths as its multiplicity. The others end at infinity or on a curve of poses; every such curve
 // ends at least one.
-
-namespace ursula::ups {
-namespace {
 
 using Complex = std::complex<double>;
 
@@ -191,6 +167,23 @@ Roots tracked(const Way& way, const Roots& start, double closeness) {
 }
 
 }  // namespace
+
+double smallestPivot() { return 16 * std::pow(Eigen::NumTraits<double>::epsilon(), 0.75); }
+
+/// If a solution lies in a chart's plane at infinity, that chart fails; this hardly happens to two.
+Roots findRoots(const Legs& legs) {
+  const LegSection section = legSection(legs);
+  Roots best;
+  int faulty = 0;
+  for (int index = 0; index < chart_count && faulty < 2 && !best.complete(); ++index) {
+    const Roots roots = rootsInChart(legs, section, index);
+    const double pivot = std::max(best.pivot, roots.pivot);
+    if (!(roots.pivot > smallestPivot())) ++faulty;
+    if (roots.all() > best.all()) best = roots;
+    best.pivot = pivot;
+  }
+  return best;
+}
 
 Roots trackRoots(const Legs& legs) {
   Roots best;
