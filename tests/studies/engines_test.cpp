@@ -12,7 +12,6 @@
 
 #include "base/csv.h"
 #include "report/quantity.h"
-#include "studies/engines/in_time.h"
 #include "studies/engines/side_by_side.h"
 
 namespace ursula {
