@@ -13,7 +13,7 @@
 #include "base/csv.h"
 #include "base/errors.h"
 #include "base/provenance.h"
-#include "exchange/import_error.h"
+#include "exchange/import.h"
 #include "model/scenario_excerpt.h"
 #include "nocsolver/errors.h"
 #include "studies/sweep/sqlite.h"

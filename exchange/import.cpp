@@ -4,10 +4,8 @@
 
 #include "base/text.h"
 #include "base/text_source.h"
-#include "exchange/import_error.h"
-#include "exchange/read/readers.h"
+#include "exchange/read/xml.h"
 #include "exchange/recognise/machine.h"
-#include "exchange/scenario_text.h"
 #include "model/scenario.h"
 
 namespace ursula::exchange {

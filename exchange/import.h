@@ -20,7 +20,7 @@ struct ImportChoices {
 /// The result of `ursula import`.
 struct Imported {
   std::string scenario;  ///< TOML
-  std::vector<Assumption> assumptions;
+  Assumptions assumptions;
 };
 
 /// Reads a model in SDF, MJCF or URDF and turns it into a scenario. It reads only this file (for URDF also a robot.yaml

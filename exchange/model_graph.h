@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <limits>
-#include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -51,8 +51,9 @@ struct Assumption {
   std::string what;   ///< a full sentence
   std::string where;  ///< bodies, joints or place in the file
   double size = 0;
-  std::string unit;  ///< "m", "rad", "1", "kg", …
+  std::string unit = "1";  ///< "m", "rad", "1", "kg", …
 };
+using Assumptions = std::vector<Assumption>;
 
 /// The content of a model file in any format: bodies, primitive joints, closures, motors and gravity.
 struct ModelGraph {
@@ -62,7 +63,16 @@ struct ModelGraph {
   std::vector<GraphBody> bodies;
   std::vector<GraphJoint> joints;
   std::vector<std::string> motors;  ///< driven joints in the order of the file's motors, or of the user's choice
-  std::vector<Assumption> assumptions;
+  Assumptions assumptions;
+};
+
+/// A model that cannot be imported: what is wrong, what was expected, what would help. The line of the file is 1-based,
+/// or 0 if no single line causes it.
+class ImportError : public std::runtime_error {
+ public:
+  explicit ImportError(const std::string& what, int at_line = 0) : std::runtime_error(what), line(at_line) {}
+
+  int line;
 };
 
 }  // namespace ursula::exchange

@@ -1,5 +1,3 @@
-#include "exchange/scenario_text.h"
-
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -7,6 +5,7 @@
 #include <tuple>
 
 #include "base/text.h"
+#include "exchange/recognise/machine.h"
 
 namespace ursula::exchange {
 namespace {
@@ -42,33 +41,26 @@ std::string plainName(const std::string& name) {
 }
 
 /// "{ phi = 0.1, d = 2.0 }": the non-zero values by coordinate, then `more`; "" if all are zero.
-std::string byCoordinate(const ImportedLeg& leg, const std::array<double, 3>& values, const std::string& more) {
+std::string byCoordinate(const Leg& leg, const PerCoordinate& values, const std::string& more) {
   std::string out;
-  const auto coordinates = rowOf(leg.kind).coordinates;
-  for (std::size_t k = 0; k < coordinates.size(); ++k)
-    if (values[k] != 0)
-      out += fmt::format("{}{} = {}", out.empty() ? "" : ", ", nameOf(coordinates[k]), text(values[k]));
+  for (const Coordinate each : rowOf(leg.kind).coordinates)
+    if (values.on(each) != 0)
+      out += fmt::format("{}{} = {}", out.empty() ? "" : ", ", nameOf(each), text(values.on(each)));
   return out.empty() ? "" : "{ " + out + more + " }";
 }
 
-std::string centre(const ImportedLink& link, bool carriage) {
-  const Vector3d& c = link.center_of_mass;
-  const double along = carriage ? c.y() : c.z();
-  const bool on_line = c.x() == 0 && (carriage ? c.z() : c.y()) == 0;
-  return on_line ? text(along) : list(c);
-}
-
-std::string linkText(const char* name, const ImportedLink& link, bool carriage) {
+std::string linkText(const char* name, const Link& link, const Vector3d& center, const std::string& bodies,
+                     bool carriage) {
   return fmt::format("{} = {{ {}mass = {}, center_of_mass = {}, inertia = {} }}  # {}\n", name,
-                     carriage ? "" : "length = " + text(link.length) + ", ", text(link.mass), centre(link, carriage),
-                     tensor(link.inertia), shown(link.bodies));
+                     carriage ? "" : "length = " + text(link.length) + ", ", text(link.mass),
+                     link.off_line.isZero(0) ? text(link.center_of_mass) : list(center), tensor(link.inertia),
+                     shown(bodies));
 }
 
-std::string actuated(const ImportedLeg& leg) {
+std::string actuated(const Leg& leg) {
   std::string out;
-  const auto coordinates = rowOf(leg.kind).coordinates;
-  for (std::size_t k = 0; k < coordinates.size(); ++k)
-    if (leg.actuated[k]) out += fmt::format("{}\"{}\"", out.empty() ? "" : ", ", nameOf(coordinates[k]));
+  for (const Coordinate each : rowOf(leg.kind).coordinates)
+    if (leg.drives(each)) out += fmt::format("{}\"{}\"", out.empty() ? "" : ", ", nameOf(each));
   return out;
 }
 
@@ -81,15 +73,16 @@ std::string legText(const ImportedLeg& leg) {
   if (row.isTelescopic())
     out += leg.stroke_from_file ? "# The lengths are the stroke of the file's limits: rod < d < rod + cylinder.\n"
                                 : "# The lengths are a stroke that was chosen: rod < d < rod + cylinder.\n";
-  out += linkText("proximal", leg.proximal, row.hasCarriage());
-  out += linkText("distal", leg.distal, false);
+  out += linkText("proximal", leg.proximal, leg.proximalCenter(), leg.bodies[0], row.hasCarriage());
+  out += linkText("distal", leg.distal, leg.distalCenter(), leg.bodies[1], false);
   if (row.knee != nullptr)
     out += fmt::format("knee = \"{}\"  # sign of {} at the file's initial pose\n",
-                       leg.knee_positive ? "positive" : "negative", row.knee);
-  if (leg.free_spin) out += "spin = \"free\"\n";
+                       leg.knee == Knee::positive ? "positive" : "negative", row.knee);
+  if (leg.spins) out += "spin = \"free\"\n";
   const std::string smoothing = leg.smoothing_speed > 0 ? ", smoothing_speed = " + text(leg.smoothing_speed) : "";
   for (const auto& [key, values, more] :
-       {std::tuple("friction", leg.damping, std::string()), std::tuple("coulomb", leg.friction, smoothing),
+       {std::tuple("friction", leg.friction, std::string()),
+        std::tuple("coulomb", static_cast<const PerCoordinate&>(leg.coulomb), smoothing),
         std::tuple("rotor_inertia", leg.rotor_inertia, std::string())})
     if (const std::string table = byCoordinate(leg, values, more); !table.empty())
       out += fmt::format("{} = {}\n", key, table);
@@ -104,23 +97,24 @@ std::string motionText(const ImportedMachine& machine) {
       "not say.\n"
       "[trajectory]\nkind = \"waypoints\"\npoints = [\n",
       machine.motion_radius);
-  for (const ImportedPose& pose : machine.motion) {
-    const Eigen::Quaterniond q = Eigen::Quaterniond(pose.orientation).normalized();
+  for (const Motion<double>& pose : machine.motion) {
+    const Eigen::Quaterniond q = Eigen::Quaterniond(pose.Q).normalized();
     const double sign = q.w() < 0 ? -1 : 1;
-    out += fmt::format("  {{ time = {}, position = {}, orientation = {} }},\n", text(pose.time), list(pose.position),
+    out += fmt::format("  {{ time = {}, position = {}, orientation = {} }},\n", text(pose.t), list(pose.p),
                        list(Eigen::Vector4d(sign * Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()))));
   }
   return out + "]\n";
 }
 
-}  // namespace
-
+/// "leg_1_d, leg_2_d, …": names in the file of the motors, in the order of the scenario's efforts.
 std::string motorsOf(const ImportedMachine& machine) {
   std::string out;
   for (const ImportedLeg& leg : machine.legs)
     for (const std::string& motor : leg.motors) out += (out.empty() ? "" : ", ") + motor;
   return out;
 }
+
+}  // namespace
 
 std::string scenarioText(const ImportedMachine& machine, const std::string& file) {
   std::string out = fmt::format("# Made by `ursula import` from {}. SI units: m, kg, s, N, rad.\n", shown(file, 200));
@@ -134,8 +128,8 @@ std::string scenarioText(const ImportedMachine& machine, const std::string& file
     out += fmt::format("#   {}: {} ({:.4g} {})\n", shown(each.where, 200), shown(each.what, 300), each.size, each.unit);
   out += fmt::format("name = \"{}\"\n\n[manipulator]\ngravity = {}\n", plainName(machine.name), list(machine.gravity));
   out += fmt::format("\n[manipulator.platform]  # {}\nmass = {}\ncenter_of_mass = {}\ninertia = {}\n",
-                     shown(machine.platform), text(machine.platform_mass), list(machine.platform_center),
-                     tensor(machine.platform_inertia));
+                     shown(machine.platform), text(machine.of_platform.mass), list(machine.of_platform.center_of_mass),
+                     tensor(machine.of_platform.inertia));
   for (const ImportedLeg& leg : machine.legs) out += legText(leg);
   return out + motionText(machine);
 }

@@ -6,7 +6,6 @@
 
 #include "base/text.h"
 #include "exchange/read/mjcf_parts.h"
-#include "exchange/read/readers.h"
 
 namespace ursula::exchange {
 namespace {
@@ -25,6 +24,11 @@ const std::set<std::string> known_of_inertial =
     wordsOf("pos quat axisangle euler xyaxes zaxis mass diaginertia fullinertia");
 const std::set<std::string> known_of_body =
     wordsOf("name childclass mocap pos quat axisangle euler xyaxes zaxis gravcomp user sleep");
+
+const std::map<std::string, JointKind> kinds_in_mjcf = {{"hinge", JointKind::revolute},
+                                                        {"slide", JointKind::prismatic},
+                                                        {"ball", JointKind::ball},
+                                                        {"free", JointKind::free}};
 
 /// The reference of an element's numbers.
 struct Place {
@@ -57,7 +61,7 @@ class MjcfReader {
     if (const Element* keys = root_.FirstChildElement("keyframe");
         keys != nullptr && keys->FirstChildElement() != nullptr)
       graph_.assumptions.push_back(
-          {"Keyframes are left out: the initial pose is the one that the bodies are written in", "<keyframe>", 0, "1"});
+          {"Keyframes are left out: the initial pose is the one that the bodies are written in", "<keyframe>"});
     return graph_;
   }
 
@@ -130,16 +134,14 @@ class MjcfReader {
       place.childclass = own;
     }
     listUnknownAttributes(element, known_of_body, graph_.assumptions);
-    const std::string given = attribute(element, "name"), compensated = attribute(element, "gravcomp");
-    const std::string name = given.empty() ? fmt::format("body of line {}", element.GetLineNum()) : given;
+    const std::string name = nameOr(element, "body"), compensated = attribute(element, "gravcomp");
     if (!compensated.empty() && numberOf(element, compensated, "gravcomp") != 0)
       refuse(element,
              fmt::format("gravcomp {}: gravity is taken off a body, which a scenario has no key for", compensated));
     if (attribute(element, "mocap") == "true") {
       for (const char* joint : {"joint", "freejoint"})
         if (element.FirstChildElement(joint) != nullptr) refuse(element, "mocap and a joint, expected one of them");
-      graph_.assumptions.push_back(
-          {"This body is moved from outside (mocap); it was taken to stand still", name, 0, "1"});
+      graph_.assumptions.push_back({"This body is moved from outside (mocap); it was taken to stand still", name});
     }
     const std::size_t body = addFrames(element, name, parent, place);
     if (!named_.bodies.emplace(name, body).second)
@@ -147,13 +149,14 @@ class MjcfReader {
     readChildren(element, body, place);
   }
 
-  GraphBody emptyBody(const Element& element, const std::string& name, const Eigen::Isometry3d& frame) const {
+  std::size_t addBody(const Element& element, const std::string& name, const Eigen::Isometry3d& frame) {
     GraphBody out;
     out.name = name;
     out.line = element.GetLineNum();
     out.frame = frame;
     out.center_of_mass = frame.translation();
-    return out;
+    graph_.bodies.push_back(out);
+    return graph_.bodies.size() - 1;
   }
 
   /// Adds the body, and massless frames between its joints, which act in their order.
@@ -162,27 +165,20 @@ class MjcfReader {
     eachContent(element, place, [&](const Element& e, const Place& at) {
       if (std::string(e.Name()) == "joint" || std::string(e.Name()) == "freejoint") joints.emplace_back(&e, at);
     });
-    GraphJoint none;
-    none.name = name + " (fixed)";
-    none.line = element.GetLineNum();
-    for (std::size_t k = 0; k + 1 < joints.size(); ++k) {
-      const std::size_t middle = graph_.bodies.size();
-      graph_.bodies.push_back(
-          emptyBody(*joints[k].first, fmt::format("{} (before its joint {})", name, k + 2), place.frame));
-      addJoint(*joints[k].first, joints[k].second, parent, middle);
-      parent = middle;
+    std::size_t body = 0;
+    for (std::size_t k = 0; k < joints.size(); ++k, parent = body) {
+      const bool last = k + 1 == joints.size();
+      body = addBody(last ? element : *joints[k].first,
+                     last ? name : fmt::format("{} (before its joint {})", name, k + 2), place.frame);
+      addJoint(*joints[k].first, joints[k].second, parent, body);
     }
-    const std::size_t body = graph_.bodies.size();
-    graph_.bodies.push_back(emptyBody(element, name, place.frame));
-    if (!joints.empty()) {
-      addJoint(*joints.back().first, joints.back().second, parent, body);
-    } else {
-      none.parent = parent;
-      none.child = body;
-      none.centre = none.centre_of_child = place.frame.translation();
-      graph_.joints.push_back(none);
-    }
-    return body;
+    if (!joints.empty()) return body;
+    GraphJoint fixed = jointAt(element, name + " (fixed)");
+    fixed.parent = parent;
+    fixed.child = addBody(element, name, place.frame);
+    fixed.centre = fixed.centre_of_child = place.frame.translation();
+    graph_.joints.push_back(fixed);
+    return fixed.child;
   }
 
   void addJoint(const Element& element, const Place& at, std::size_t parent, std::size_t child) {
@@ -190,19 +186,14 @@ class MjcfReader {
     const auto get = [&](const char* name) {
       return free ? std::string() : defaults_.get(element, at.childclass, name);
     };
-    GraphJoint joint;
-    joint.name = attribute(element, "name").empty() ? fmt::format("joint of line {}", element.GetLineNum())
-                                                    : attribute(element, "name");
-    joint.line = element.GetLineNum();
+    GraphJoint joint = jointAt(element, nameOr(element, "joint"));
     joint.parent = parent;
     joint.child = child;
     const std::string type = free ? "free" : get("type").empty() ? "hinge" : get("type");
-    joint.kind = type == "hinge"   ? JointKind::revolute
-                 : type == "slide" ? JointKind::prismatic
-                 : type == "ball"  ? JointKind::ball
-                                   : JointKind::free;
-    if (type != "hinge" && type != "slide" && type != "ball" && type != "free")
+    const auto kind = kinds_in_mjcf.find(type);
+    if (kind == kinds_in_mjcf.end())
       refuse(element, fmt::format("type '{}', expected hinge, slide, ball or free", shown(type)));
+    joint.kind = kind->second;
     const std::string pos = get("pos"), axis = get("axis");
     joint.centre = joint.centre_of_child =
         joint.kind == JointKind::free ? at.frame.translation()

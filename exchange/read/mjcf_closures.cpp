@@ -71,11 +71,9 @@ const std::set<std::string> known_of_weld =
 void readEquality(const Element& element, const MjcfDefaults& defaults, const MjcfNamed& named, ModelGraph& graph) {
   const std::string kind = element.Name();
   const auto get = [&](const char* name) { return defaults.get(element, "", name, "equality"); };
-  const std::string name = attribute(element, "name").empty()
-                               ? fmt::format("{} of line {}", shown(kind), element.GetLineNum())
-                               : attribute(element, "name");
+  const std::string name = nameOr(element, shown(kind));
   if (get("active") == "false") {
-    graph.assumptions.push_back({"This constraint is switched off in the file and is left out", name, 0, "1"});
+    graph.assumptions.push_back({"This constraint is switched off in the file and is left out", name});
     return;
   }
   if (kind != "connect" && kind != "weld")
@@ -84,10 +82,7 @@ void readEquality(const Element& element, const MjcfDefaults& defaults, const Mj
                        "connect or weld",
                        shown(kind)));
   listUnknownAttributes(element, kind == "weld" ? known_of_weld : known_of_connect, graph.assumptions);
-  GraphJoint joint;
-  joint.name = name;
-  joint.line = element.GetLineNum();
-  joint.kind = kind == "connect" ? JointKind::ball : JointKind::fixed;
+  GraphJoint joint = jointAt(element, name, kind == "connect" ? JointKind::ball : JointKind::fixed);
   joint.closure = true;
   if (const std::string site = attribute(element, "site1"); !site.empty())
     joinSites(element, site, named, joint, graph);

@@ -62,8 +62,7 @@ void takeInertial(const Element& inertial, const MjcfCompiler& compiler, const E
 
 /// Applies balanceinertia, boundmass and boundinertia, and lists what they change. Throws ImportError for an invalid
 /// tensor.
-void boundInertia(const Element& element, const MjcfCompiler& compiler, GraphBody& body,
-                  std::vector<Assumption>& assumptions);
+void boundInertia(const Element& element, const MjcfCompiler& compiler, GraphBody& body, Assumptions& assumptions);
 
 struct MjcfSite {
   std::size_t body = 0;

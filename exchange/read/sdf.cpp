@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "exchange/read/readers.h"
 #include "exchange/read/sdf_parts.h"
 
 namespace ursula::exchange {
@@ -200,9 +199,8 @@ class SdfReader {
     const std::string type = requiredAttribute(element, "type");
     const std::string parent = childText(element, "parent");
     if (parent.empty()) refuse(element, "no <parent>, expected a link's name");
-    GraphJoint joint;
-    joint.name = (frame.scope == SdfFrames::world ? "" : paths_[frame.scope]) + attribute(element, "name");
-    joint.line = element.GetLineNum();
+    GraphJoint joint =
+        jointAt(element, (frame.scope == SdfFrames::world ? "" : paths_[frame.scope]) + attribute(element, "name"));
     joint.parent = bodyIndex(element, frames_.find(element, frame.scope, parent, "<parent>"));
     joint.child = bodyIndex(element, frames_.find(element, frame.scope, frame.attached_to, "<child>"));
     const Eigen::Isometry3d at = frames_.inWorld(index);
@@ -239,18 +237,14 @@ class SdfReader {
     cross.name = joint.name + " (cross)";
     cross.line = joint.line;
     cross.frame = at;
-    const std::size_t child = joint.child, middle = graph_.bodies.size();
-    const std::string name = joint.name;
-    graph_.bodies.push_back(cross);
     joint.kind = JointKind::revolute;
     GraphJoint second = joint;
-    joint.name = name + "/axis";
-    joint.child = middle;
-    takeAxis(element, "axis", scope, at, false, joint);
-    second.name = name + "/axis2";
-    second.parent = middle;
-    second.child = child;
+    joint.name += "/axis";
+    second.name += "/axis2";
+    joint.child = second.parent = graph_.bodies.size();
     second.rotor_inertia = 0;
+    graph_.bodies.push_back(cross);
+    takeAxis(element, "axis", scope, at, false, joint);
     takeAxis(element, "axis2", scope, at, false, second);
     graph_.joints.push_back(joint);
     graph_.joints.push_back(second);

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <set>
 #include <vector>
 
 #include "base/text.h"
-#include "exchange/read/readers.h"
 #include "exchange/read/sdf_parts.h"
 #include "exchange/read/urdf_parts.h"
 
@@ -36,6 +36,12 @@ const std::set<std::string> known_in_robot =
     wordsOf("link joint loop_joint material transmission ros2_control gazebo mujoco sensor frame");
 const std::set<std::string> known_in_urdf_link =
     wordsOf("inertial visual collision self_collision_checking contact sensor");
+
+const std::map<std::string, JointKind> kinds_of_joint = {
+    {"fixed", JointKind::fixed},         {"floating", JointKind::free},       {"ball", JointKind::ball},
+    {"spherical", JointKind::ball},      {"revolute", JointKind::revolute},   {"continuous", JointKind::revolute},
+    {"prismatic", JointKind::prismatic}, {"universal", JointKind::universal},
+};
 
 class UrdfReader {
  public:
@@ -115,7 +121,7 @@ class UrdfReader {
     graph_.bodies[order[0]].fixed = true;
     if (graph_.bodies[order[0]].name != "world")
       graph_.assumptions.push_back(
-          {"The root link stands still: the file does not say what does", graph_.bodies[order[0]].name, 0, "1"});
+          {"The root link stands still: the file does not say what does", graph_.bodies[order[0]].name});
     for (std::size_t k = 0; k < order.size(); ++k)
       for (const std::size_t j : children[order[k]]) {
         graph_.bodies[ends_[j].second].frame = graph_.bodies[order[k]].frame * originOf(*elements_[j]);
@@ -136,22 +142,12 @@ class UrdfReader {
       refuse(link, fmt::format("no <{}> in <inertial>, expected one", mass == nullptr ? "mass" : "inertia"));
     body.mass = numberOf(*mass, requiredAttribute(*mass, "value"), "mass");
     if (body.mass < 0) refuse(*mass, fmt::format("a mass of {}, expected none below zero", body.mass));
-    const Eigen::Isometry3d at = body.frame * originOf(*inertial);
-    body.center_of_mass = at.translation();
-    std::array<double, 6> entries = {};
-    constexpr std::array<const char*, 6> names = {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      const std::string text = k < 3 ? requiredAttribute(*inertia, names[k]) : attribute(*inertia, names[k]);
-      if (text.empty()) {
-        graph_.assumptions.push_back(
-            {fmt::format("The file gives no {}: zero was taken", names[k]), body.name, 0, "kg·m²"});
-        continue;
-      }
-      entries[k] = numberOf(*inertia, text, names[k]);
-      body.inertia_rounding = std::max(body.inertia_rounding, halfLastDigit(text));
-    }
-    body.inertia = at.linear() * tensorOf({entries[0], entries[1], entries[2]}, {entries[3], entries[4], entries[5]}) *
-                   at.linear().transpose();
+    const auto missing = [&](std::size_t k, const char* name) {
+      if (k < 3) requiredAttribute(*inertia, name);
+      graph_.assumptions.push_back({fmt::format("The file gives no {}: zero was taken", name), body.name, 0, "kg·m²"});
+      return 0.0;
+    };
+    takeInertia(*inertia, attribute, body.frame * originOf(*inertial), missing, body);
   }
 
   void readJoint(const Element& element) {
@@ -160,9 +156,7 @@ class UrdfReader {
                 {"parent", "child", "origin", "axis", "limit", "dynamics", "mimic", "safety_controller", "calibration"},
                 graph_.assumptions);
     const std::string type = requiredAttribute(element, "type");
-    GraphJoint joint;
-    joint.name = attribute(element, "name");
-    joint.line = element.GetLineNum();
+    GraphJoint joint = jointAt(element, attribute(element, "name"));
     joint.parent = ends_[index].first;
     joint.child = ends_[index].second;
     const Eigen::Isometry3d& at = graph_.bodies[joint.child].frame;
@@ -170,21 +164,13 @@ class UrdfReader {
     joint.rotor_inertia = drakeRotorInertia(element);
     if (element.FirstChildElement("mimic") || element.FirstChildElement("drake:mimic"))
       refuse(element, "mimic: it follows another joint, which a scenario has no words for");
-    if (type == "fixed")
-      joint.kind = JointKind::fixed;
-    else if (type == "floating")
-      joint.kind = JointKind::free;
-    else if (type == "ball" || type == "spherical")
-      joint.kind = JointKind::ball;
-    else if (type == "revolute" || type == "continuous" || type == "prismatic")
-      joint.kind = type == "prismatic" ? JointKind::prismatic : JointKind::revolute;
-    else if (type == "universal")
-      joint.kind = JointKind::universal;
-    else
+    const auto kind = kinds_of_joint.find(type);
+    if (kind == kinds_of_joint.end())
       refuse(element,
              fmt::format("a {} joint, which a scenario has no words for, expected revolute, continuous, prismatic or "
                          "fixed",
                          shown(type)));
+    joint.kind = kind->second;
     const Element* axis = onlyChild(element, "axis");
     const std::string xyz = axis == nullptr ? "" : attribute(*axis, "xyz");
     if (axis != nullptr) listUnknownAttributes(*axis, {"xyz"}, graph_.assumptions);
@@ -202,7 +188,7 @@ class UrdfReader {
       // URDF's default for both is zero, so a joint that cannot move is one without given limits.
       if (joint.lower == joint.upper && !attribute(*limit, "lower").empty())
         graph_.assumptions.push_back(
-            {"The file's limits hold this joint where it is; it was taken as free to move", joint.name, 0, "1"});
+            {"The file's limits hold this joint where it is; it was taken as free to move", joint.name});
       if (!(joint.lower < joint.upper)) joint.lower = -(joint.upper = std::numeric_limits<double>::infinity());
     }
     const Element* dynamics = onlyChild(element, "dynamics");

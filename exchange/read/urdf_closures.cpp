@@ -7,11 +7,72 @@
 
 #include "base/text.h"
 #include "base/text_source.h"
-#include "exchange/import_error.h"
 #include "exchange/read/sdf_parts.h"
 
 namespace ursula::exchange {
 namespace {
+
+/// The few forms of YAML in a robot.yaml: `key: word`, `key: [a, [b, c]]`, and lists of `- a` below a key. Nested lists
+/// are flattened.
+using SmallYaml = std::map<std::string, std::vector<std::string>>;
+
+/// Splits at brackets, commas, list dashes and white space; drops quotes.
+void appendWords(const std::string& text, std::vector<std::string>& out) {
+  std::string word;
+  char quote = 0;
+  const auto end = [&] {
+    if (!word.empty() && word != "-") out.push_back(word);
+    word.clear();
+  };
+  for (const char c : text) {
+    if (quote != 0) {
+      if (c == quote)
+        quote = 0;
+      else
+        word += c;
+    } else if (c == '\'' || c == '"') {
+      quote = c;
+    } else if (c == '#') {
+      break;
+    } else if (c == '[' || c == ']' || c == ',' || c == ' ' || c == '\t' || c == '\r') {
+      end();
+    } else {
+      word += c;
+    }
+  }
+  end();
+}
+
+/// Throws ImportError for any other form.
+SmallYaml readSmallYaml(const std::string& text, const std::string& name) {
+  SmallYaml out;
+  std::istringstream lines(text);
+  std::string line, key;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const std::size_t from = line.find_first_not_of(" \t\r");
+    if (from == std::string::npos || line[from] == '#' || line.compare(0, 3, "---") == 0) continue;
+    if (line.find_first_of("{&*|>!") != std::string::npos)
+      throw ImportError(
+          fmt::format("{}:{}: '{}' is neither a list nor a word, expected `key: [a, b]`", name, number, shown(line)));
+    const std::size_t colon = line.find(':');
+    if (from == 0 && line[0] != '-' && line[0] != '[' && colon != std::string::npos) {
+      key = line.substr(0, colon);
+      out[key];
+      appendWords(line.substr(colon + 1), out[key]);
+    } else if (key.empty()) {
+      throw ImportError(fmt::format("{}:{}: '{}' is of no key, expected `key: [a, b]`", name, number, shown(line)));
+    } else {
+      appendWords(line, out[key]);
+    }
+  }
+  return out;
+}
+
+const std::map<std::string, JointKind> kinds_of_closure = {{"ball", JointKind::ball},
+                                                           {"fixed", JointKind::fixed},
+                                                           {"revolute", JointKind::revolute},
+                                                           {"continuous", JointKind::revolute},
+                                                           {"prismatic", JointKind::prismatic}};
 
 class Closer {
  public:
@@ -31,7 +92,7 @@ class Closer {
     const Element* second = element.FirstChildElement("link2");
     if (first != nullptr && second == nullptr) second = first->NextSiblingElement("link1");
     if (first == nullptr || second == nullptr) refuse(element, "no <link1> or no <link2>, expected both");
-    GraphJoint ball = closure(element, attribute(element, "name"), JointKind::ball);
+    GraphJoint ball = closure(element, JointKind::ball);
     const auto side = [&](const Element& e, std::size_t& body, Vector3d& centre) {
       body = link(e, requiredAttribute(e, "link"));
       const std::string xyz = attribute(e, "xyz");
@@ -45,15 +106,11 @@ class Closer {
   /// As in SDF 1.7, to which URDF is converted today: pose in the child, axis in the joint's frame.
   void gazebo(const Element& element) {
     const std::string type = requiredAttribute(element, "type");
-    const bool hinge = type == "revolute" || type == "continuous", slide = type == "prismatic";
-    if (type != "ball" && type != "fixed" && !hinge && !slide)
+    const auto kind = kinds_of_closure.find(type);
+    if (kind == kinds_of_closure.end())
       refuse(element,
              fmt::format("a {} joint that closes a loop, expected ball, revolute, prismatic or fixed", shown(type)));
-    GraphJoint joint = closure(element, attribute(element, "name"),
-                               type == "ball" ? JointKind::ball
-                               : hinge        ? JointKind::revolute
-                               : slide        ? JointKind::prismatic
-                                              : JointKind::fixed);
+    GraphJoint joint = closure(element, kind->second);
     joint.parent = link(element, childText(element, "parent"));
     joint.child = link(element, childText(element, "child"));
     Eigen::Isometry3d at = graph_.bodies[joint.child].frame;
@@ -62,7 +119,7 @@ class Closer {
       at = at * placed({v[0], v[1], v[2]}, rollPitchYaw({v[3], v[4], v[5]}));
     }
     joint.centre = joint.centre_of_child = at.translation();
-    if (hinge || slide) {
+    if (joint.kind == JointKind::revolute || joint.kind == JointKind::prismatic) {
       const Element* axis = element.FirstChildElement("axis");
       const std::string xyz = axis == nullptr ? "" : childText(*axis, "xyz");
       if (xyz.empty()) refuse(element, "no <axis> with <xyz>, expected one");
@@ -79,9 +136,8 @@ class Closer {
 
   /// Reads `closed_loop: [[A, B], …]`, `type: [3d, …]`, `name_mot: TEXT`.
   void yaml(const std::filesystem::path& file) {
-    const SmallYaml text = readSmallYaml(readText(file, {1 << 20, "robot.yaml"}), file.filename().string());
-    std::vector<std::string> types = text.list("type");
-    const std::vector<std::string> ends = text.list("closed_loop");
+    SmallYaml text = readSmallYaml(readText(file, {1 << 20, "robot.yaml"}), file.filename().string());
+    const std::vector<std::string> types = text["type"], ends = text["closed_loop"];
     if (ends.size() % 2 != 0) throw ImportError("robot.yaml: closed_loop has an odd number of frames, expected pairs");
     for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
       const std::string type = types.empty() ? "6d" : types[std::min(k / 2, types.size() - 1)];
@@ -89,7 +145,7 @@ class Closer {
         throw ImportError(fmt::format("robot.yaml: type '{}', expected 3d or 6d", shown(type)));
       pair(ends[k], ends[k + 1], type[0] == '3' ? JointKind::ball : JointKind::fixed, "robot.yaml");
     }
-    takeMotors(text.list("name_mot"));
+    takeMotors(text["name_mot"]);
   }
 
   /// A single word is part of the motors' names; in a list each word is a full name.
@@ -115,11 +171,8 @@ class Closer {
   }
 
  private:
-  GraphJoint closure(const Element& element, const std::string& name, JointKind kind) const {
-    GraphJoint out;
-    out.name = name.empty() ? fmt::format("closure of line {}", element.GetLineNum()) : name;
-    out.line = element.GetLineNum();
-    out.kind = kind;
+  static GraphJoint closure(const Element& element, JointKind kind) {
+    GraphJoint out = jointAt(element, nameOr(element, "closure"), kind);
     out.closure = true;
     return out;
   }
@@ -170,33 +223,6 @@ void passOver(ModelGraph& graph, const UrdfLinks& links, std::size_t first, cons
   }
 }
 
-/// Splits at brackets, commas, list dashes and white space; drops quotes.
-void appendWords(const std::string& text, std::vector<std::string>& out) {
-  std::string word;
-  char quote = 0;
-  const auto end = [&] {
-    if (!word.empty() && word != "-") out.push_back(word);
-    word.clear();
-  };
-  for (const char c : text) {
-    if (quote != 0) {
-      if (c == quote)
-        quote = 0;
-      else
-        word += c;
-    } else if (c == '\'' || c == '"') {
-      quote = c;
-    } else if (c == '#') {
-      break;
-    } else if (c == '[' || c == ']' || c == ',' || c == ' ' || c == '\t' || c == '\r') {
-      end();
-    } else {
-      word += c;
-    }
-  }
-  end();
-}
-
 }  // namespace
 
 void readUrdfClosures(const Element& robot, const std::filesystem::path& file, const UrdfLinks& links,
@@ -220,35 +246,6 @@ void readUrdfClosures(const Element& robot, const std::filesystem::path& file, c
   std::error_code none;
   if (!found() && std::filesystem::is_regular_file(yaml, none)) closer.yaml(yaml);
   if (!found()) closer.named();
-}
-
-std::vector<std::string> SmallYaml::list(const std::string& key) const {
-  const auto found = values.find(key);
-  return found == values.end() ? std::vector<std::string>() : found->second;
-}
-
-SmallYaml readSmallYaml(const std::string& text, const std::string& name) {
-  SmallYaml out;
-  std::istringstream lines(text);
-  std::string line, key;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    const std::size_t from = line.find_first_not_of(" \t\r");
-    if (from == std::string::npos || line[from] == '#' || line.compare(0, 3, "---") == 0) continue;
-    if (line.find_first_of("{&*|>!") != std::string::npos)
-      throw ImportError(
-          fmt::format("{}:{}: '{}' is neither a list nor a word, expected `key: [a, b]`", name, number, shown(line)));
-    const std::size_t colon = line.find(':');
-    if (from == 0 && line[0] != '-' && line[0] != '[' && colon != std::string::npos) {
-      key = line.substr(0, colon);
-      out.values[key];
-      appendWords(line.substr(colon + 1), out.values[key]);
-    } else if (key.empty()) {
-      throw ImportError(fmt::format("{}:{}: '{}' is of no key, expected `key: [a, b]`", name, number, shown(line)));
-    } else {
-      appendWords(line, out.values[key]);
-    }
-  }
-  return out;
 }
 
 }  // namespace ursula::exchange

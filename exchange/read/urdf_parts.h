@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -9,16 +8,6 @@
 #include "exchange/read/xml.h"
 
 namespace ursula::exchange {
-
-/// The few forms of YAML in a robot.yaml: `key: word`, `key: [a, [b, c]]`, and lists of `- a` below a key.
-struct SmallYaml {
-  std::map<std::string, std::vector<std::string>> values;  ///< nested lists are flattened
-
-  std::vector<std::string> list(const std::string& key) const;
-};
-
-/// Throws ImportError for any other form.
-SmallYaml readSmallYaml(const std::string& text, const std::string& name);
 
 /// Links of a URDF by name, as indices of the graph's bodies.
 using UrdfLinks = std::unordered_map<std::string, std::size_t>;

@@ -20,6 +20,16 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(from, text.find_last_not_of(white) - from + 1));
 }
 
+/// Visits the words between white space.
+template <class Visit>
+void eachWord(std::string_view text, const Visit& visit) {
+  for (std::size_t i = text.find_first_not_of(white); i < text.size(); i = text.find_first_not_of(white, i)) {
+    const std::size_t end = std::min(text.find_first_of(white, i), text.size());
+    visit(text.substr(i, end - i));
+    i = end;
+  }
+}
+
 int lineAt(const std::string& text, std::size_t place) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(place), '\n'));
 }
@@ -128,16 +138,13 @@ const Element* onlyChild(const Element& element, const char* name) {
 
 std::vector<double> numbersOf(const Element& at, std::string_view text, std::size_t count, const std::string& what) {
   std::vector<double> out;
-  for (std::size_t i = text.find_first_not_of(white); i < text.size(); i = text.find_first_not_of(white, i)) {
-    const std::size_t end = std::min(text.find_first_of(white, i), text.size());
-    const std::string_view word = text.substr(i, end - i);
+  eachWord(text, [&](std::string_view word) {
     const LeadingNumber number = leadingNumber(word);
     if (number.length != word.size() || !std::isfinite(number.value))
       refuse(at, fmt::format("{} has '{}', expected finite decimal numbers", what, shown(word)));
     out.push_back(number.value);
     if (out.size() > most_numbers) refuse(at, fmt::format("{} has more than {} numbers", what, most_numbers));
-    i = end;
-  }
+  });
   if (count != 0 && out.size() != count)
     refuse(at, fmt::format("{} has {} number{}, expected {}", what, out.size(), out.size() == 1 ? "" : "s", count));
   return out;
@@ -160,9 +167,7 @@ bool truthOf(const Element& at, const std::string& text, const std::string& what
 
 double halfLastDigit(std::string_view text) {
   double largest = 0;
-  for (std::size_t i = text.find_first_not_of(white); i < text.size(); i = text.find_first_not_of(white, i)) {
-    const std::size_t end = std::min(text.find_first_of(white, i), text.size());
-    const std::string_view word = text.substr(i, end - i);
+  eachWord(text, [&largest](std::string_view word) {
     const std::size_t e = std::min(word.find_first_of("eE"), word.size());
     const std::size_t dot = word.substr(0, e).find('.');
     const double decimals = dot == std::string_view::npos ? 0 : static_cast<double>(e - dot - 1);
@@ -170,8 +175,7 @@ double halfLastDigit(std::string_view text) {
     // A whole number, above all zero, says nothing about its precision.
     if (dot != std::string_view::npos || exponent != 0)
       largest = std::max(largest, 0.5 * std::pow(10.0, exponent - decimals));
-    i = end;
-  }
+  });
   return largest;
 }
 
@@ -180,7 +184,7 @@ std::set<std::string> wordsOf(const std::string& text) {
   return {std::istream_iterator<std::string>(in), {}};
 }
 
-void listUnknown(const Element& element, const std::set<std::string>& children, std::vector<Assumption>& assumptions) {
+void listUnknown(const Element& element, const std::set<std::string>& children, Assumptions& assumptions) {
   eachChild(element, nullptr, [&](const Element& child) {
     const std::string name = child.Name();
     if (children.count(name) == 0 && name.find(':') == std::string::npos && assumptions.size() < most_unknown)
@@ -189,12 +193,38 @@ void listUnknown(const Element& element, const std::set<std::string>& children, 
   });
 }
 
-void listUnknownAttributes(const Element& element, const std::set<std::string>& attributes,
-                           std::vector<Assumption>& assumptions) {
+void listUnknownAttributes(const Element& element, const std::set<std::string>& attributes, Assumptions& assumptions) {
   for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next())
     if (attributes.count(a->Name()) == 0 && assumptions.size() < most_unknown)
       assumptions.push_back({fmt::format("Nothing is known of the attribute {}, which is left out", shown(a->Name())),
                              named(element), 1, "1"});
+}
+
+std::string nameOr(const Element& element, const std::string& kind) {
+  const std::string name = attribute(element, "name");
+  return name.empty() ? fmt::format("{} of line {}", kind, element.GetLineNum()) : name;
+}
+
+GraphJoint jointAt(const Element& element, const std::string& name, JointKind kind) {
+  GraphJoint out;
+  out.name = name;
+  out.line = element.GetLineNum();
+  out.kind = kind;
+  return out;
+}
+
+void takeInertia(const Element& inertia, TextOfWord text, const Eigen::Isometry3d& at,
+                 const std::function<double(std::size_t, const char*)>& missing, GraphBody& body) {
+  constexpr std::array<const char*, 6> names = {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
+  std::array<double, 6> entries = {};
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const std::string word = text(inertia, names[k]);
+    entries[k] = word.empty() ? missing(k, names[k]) : numberOf(inertia, word, names[k]);
+    body.inertia_rounding = std::max(body.inertia_rounding, halfLastDigit(word));
+  }
+  body.center_of_mass = at.translation();
+  body.inertia = at.linear() * tensorOf({entries[0], entries[1], entries[2]}, {entries[3], entries[4], entries[5]}) *
+                 at.linear().transpose();
 }
 
 Vector3d directionOf(const Element& at, const Vector3d& vector, const std::string& what) {

@@ -3,15 +3,14 @@
 #include <tinyxml2.h>
 
 #include <Eigen/Geometry>
-#include <optional>
+#include <filesystem>
+#include <functional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/scalar.h"
-#include "exchange/import_error.h"
-
 #include "exchange/model_graph.h"
 
 namespace ursula::exchange {
@@ -63,9 +62,20 @@ void eachChild(const Element& element, const char* name, const Visit& visit) {
 std::set<std::string> wordsOf(const std::string& text);
 /// Lists unknown child elements or attributes, so that misspelt words are noticed. Names of other name spaces ("gz:…")
 /// are ignored.
-void listUnknown(const Element& element, const std::set<std::string>& children, std::vector<Assumption>& assumptions);
-void listUnknownAttributes(const Element& element, const std::set<std::string>& attributes,
-                           std::vector<Assumption>& assumptions);
+void listUnknown(const Element& element, const std::set<std::string>& children, Assumptions& assumptions);
+void listUnknownAttributes(const Element& element, const std::set<std::string>& attributes, Assumptions& assumptions);
+
+/// Returns the element's name, or "KIND of line N" if it has none.
+std::string nameOr(const Element& element, const std::string& kind);
+/// Returns a joint of that name at the element's line.
+GraphJoint jointAt(const Element& element, const std::string& name, JointKind kind = JointKind::fixed);
+
+/// A word's text: of a child in SDF (`childText`), of an attribute in URDF (`attribute`).
+using TextOfWord = std::string (*)(const Element&, const char*);
+/// Takes ixx, iyy, izz, ixy, ixz and iyz of `inertia` in the frame `at`, whose origin is the mass centre. If the file
+/// lacks the k-th, `missing(k, name)` is taken.
+void takeInertia(const Element& inertia, TextOfWord text, const Eigen::Isometry3d& at,
+                 const std::function<double(std::size_t, const char*)>& missing, GraphBody& body);
 
 /// Returns a unit vector. Throws if it is zero.
 Vector3d directionOf(const Element& at, const Vector3d& vector, const std::string& what);
@@ -74,5 +84,12 @@ Matrix3d rollPitchYaw(const Vector3d& angles);
 Eigen::Isometry3d placed(const Vector3d& position, const Matrix3d& rotation);
 /// [xx, yy, zz, xy, xz, yz] as a tensor.
 Matrix3d tensorOf(const Vector3d& diagonal, const Vector3d& products);
+
+/// One reader per format returns the graph of a parsed file. Readers throw ImportError for unknown elements and for
+/// elements that a scenario cannot express.
+ModelGraph readSdf(const Element& root);
+ModelGraph readMjcf(const Element& root);
+/// Looks for robot.yaml next to `file`.
+ModelGraph readUrdf(const Element& root, const std::filesystem::path& file);
 
 }  // namespace ursula::exchange

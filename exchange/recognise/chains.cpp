@@ -7,7 +7,6 @@
 #include <set>
 
 #include "base/text.h"
-#include "exchange/import_error.h"
 
 namespace ursula::exchange {
 namespace {
@@ -152,8 +151,7 @@ void append(const ModelGraph& graph, std::size_t index, bool outwards, Chain& ch
   primitive.joint = index;
   primitive.inner = outwards ? joint.centre : joint.centre_of_child;
   primitive.outer = outwards ? joint.centre_of_child : joint.centre;
-  const auto add = [&](Primitive::Kind kind, const Vector3d& axis, bool first = true) {
-    if (!first) chain.bodies.emplace_back();
+  const auto add = [&](Primitive::Kind kind, const Vector3d& axis) {
     primitive.kind = kind;
     primitive.axis = sign * axis;
     chain.primitives.push_back(primitive);
@@ -167,7 +165,7 @@ void append(const ModelGraph& graph, std::size_t index, bool outwards, Chain& ch
       return add(Primitive::Kind::S, Vector3d::Zero());
     case JointKind::universal:
       add(Primitive::Kind::R, joint.axis[outwards ? 0 : 1]);
-      return add(Primitive::Kind::R, joint.axis[outwards ? 1 : 0], false);
+      return add(Primitive::Kind::R, joint.axis[outwards ? 1 : 0]);
     case JointKind::fixed:
     case JointKind::free:
       break;
@@ -194,7 +192,7 @@ Chain walk(const ModelGraph& graph, const Groups& groups, const Net& net, const 
                                     "platform only",
                                     where, net.name(edge.to), on.size()),
                         groups.groups[edge.to].line);
-    chain.bodies.emplace_back(edge.to);
+    chain.primitives.back().behind = edge.to;
     from = edge.to;
     edge = on[0].joint == edge.joint ? on[1] : on[0];
     if (chain.primitives.size() > 12)
@@ -206,10 +204,9 @@ Chain walk(const ModelGraph& graph, const Groups& groups, const Net& net, const 
 /// platform this way.
 bool holdsNothing(const ModelGraph& graph, const Groups& groups, const Chain& chain) {
   std::size_t freedoms = 0, slides = 0;
-  for (const auto& body : chain.bodies)
-    if (body && !groups.groups[*body].isFrame()) return false;
   for (const Primitive& p : chain.primitives) {
     const GraphJoint& joint = graph.joints[p.joint];
+    if (p.behind && !groups.groups[*p.behind].isFrame()) return false;
     if (joint.driven || joint.damping != 0 || joint.friction != 0 || joint.rotor_inertia != 0) return false;
     freedoms += p.kind == Primitive::Kind::S ? 3 : 1;
     slides += p.kind == Primitive::Kind::P ? 1 : 0;
@@ -230,11 +227,11 @@ std::pair<std::size_t, std::size_t> placeOf(const ModelGraph& graph, const Chain
 }
 
 /// Reports bodies of the file that are not in the machine, with their mass.
-void sayWhatIsApart(const Groups& groups, const Chains& chains, std::vector<Assumption>& assumptions) {
+void sayWhatIsApart(const Groups& groups, const Chains& chains, Assumptions& assumptions) {
   std::set<std::size_t> used = {chains.base, chains.platform};
   for (const Chain& chain : chains.legs)
-    for (const auto& body : chain.bodies)
-      if (body) used.insert(*body);
+    for (const Primitive& p : chain.primitives)
+      if (p.behind) used.insert(*p.behind);
   for (std::size_t i = 0; i < groups.groups.size(); ++i) {
     const Group& group = groups.groups[i];
     if (used.count(i) != 0 || group.fixed || group.isFrame()) continue;
@@ -256,7 +253,7 @@ std::string Chain::place(const ModelGraph& graph) const {
 }
 
 Chains findChains(const ModelGraph& graph, const Groups& groups, const ImportChoices& choices,
-                  std::vector<Assumption>& assumptions) {
+                  Assumptions& assumptions) {
   Net net(graph, groups);
   net.trimFrames();
   Chains out;

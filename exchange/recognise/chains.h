@@ -48,12 +48,12 @@ struct Primitive {
   Vector3d inner = Vector3d::Zero();  ///< the centre in the body towards the base
   Vector3d outer = Vector3d::Zero();  ///< the centre in the body towards the platform
   std::size_t joint = 0;              ///< index in the graph
+  std::optional<std::size_t> behind;  ///< group between it and the next; none within a joint and at the platform
 };
 
-/// A chain from base to platform. bodies[k] is the group between primitives k and k + 1, or nullopt within a joint.
+/// A chain from base to platform.
 struct Chain {
   std::vector<Primitive> primitives;
-  std::vector<std::optional<std::size_t>> bodies;
   std::string place(const ModelGraph& graph) const;  ///< names of its joints, for messages
 };
 
@@ -64,6 +64,6 @@ struct Chains {
 
 /// Throws ImportError with the bodies and joints that prevent it.
 Chains findChains(const ModelGraph& graph, const Groups& groups, const ImportChoices& choices,
-                  std::vector<Assumption>& assumptions);
+                  Assumptions& assumptions);
 
 }  // namespace ursula::exchange

@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "base/text.h"
-#include "exchange/import_error.h"
 
 namespace ursula::exchange {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "base/scalar.h"
 #include "base/text.h"
-#include "exchange/import_error.h"
 #include "model/legs/leg_chain.h"
 
 namespace ursula::exchange {
@@ -18,6 +17,8 @@ Matrix3d frameOf(const Vector3d& x, const Vector3d& along) {
   out << x, along.cross(x), along;
   return out;
 }
+
+Knee kneeOf(bool positive) { return positive ? Knee::positive : Knee::negative; }
 
 Vector3d offAxis(const Vector3d& v, const Vector3d& unit) { return v - unit * unit.dot(v); }
 
@@ -35,13 +36,13 @@ Group sumOf(const LegTask& task, const std::vector<std::size_t>& groups) {
 /// Points and axes are in the world; only F̂ uses B's axes.
 class LegMaker {
  public:
-  LegMaker(const LegTask& task, Group& platform, std::vector<Assumption>& assumptions)
-      : task_(task), shape_(task.shape), joints_(task.shape.joints), platform_(platform), assumptions_(assumptions) {}
+  explicit LegMaker(const LegTask& task) : task_(task), shape_(task.shape), joints_(task.shape.joints) {}
 
   ImportedLeg make() {
     leg_.kind = shape_.kind;
+    leg_.actuated = {};
     leg_.joints = shape_.place;
-    leg_.free_spin = shape_.inner_ball.has_value();
+    leg_.spins = shape_.inner_ball.has_value();
     B_ = joints_.back().inner;
     proximal_ = sumOf(task_, shape_.proximal);
     distal_ = sumOf(task_, shape_.distal);
@@ -50,12 +51,12 @@ class LegMaker {
       row.isTelescopic() ? makeTelescope() : makeKneed();
     else
       row.hasCarriage() ? makeCarriage() : makeCrank();
-    lumpCrosses(task_, A_, proximal_, distal_, platform_, assumptions_);
+    lumpCrosses(task_, A_, proximal_, distal_);
     makeLinks();
     leg_.base_point = task_.base.inverse() * base_point_;
     leg_.base_axis = task_.base.linear().transpose() * u_;
     leg_.platform_point = task_.platform.inverse() * joints_.back().outer;
-    takeLegDynamics(task_, grows_along_, leg_, assumptions_);
+    takeLegDynamics(task_, grows_along_, leg_);
     sayGaps();
     return leg_;
   }
@@ -80,7 +81,7 @@ class LegMaker {
       refuseLeg(fmt::format("{}, off by {:.6g}° ({:.3g} rad), more than {:g} (--tolerance)", what,
                             angle * degrees_per_radian, angle, task_.choices.tolerance));
     if (angle > worth_saying)
-      assumptions_.push_back({fmt::format("{}: taken as exact", what), shape_.place, angle, "rad"});
+      task_.assumptions.push_back({fmt::format("{}: taken as exact", what), shape_.place, angle, "rad"});
   }
 
   /// If a ball replaces the universal joint, any direction across the line will do.
@@ -91,7 +92,7 @@ class LegMaker {
   }
 
   void makeTelescope() {
-    const bool ball = leg_.free_spin;
+    const bool ball = leg_.spins;
     // With a ball at the base, joints_ are S, P, S: the slide is second.
     const Primitive& slide = joints_[ball ? 1 : 2];
     if (ball) {
@@ -112,7 +113,7 @@ class LegMaker {
       requireSquare(joints_[1].axis, e, fmt::format("the axis of {} and the leg's line", shown(joint(1).name)));
     if (!(u_.cross(e).norm() > 1e-6)) refuseLeg("its first axis lies along its line, expected it across");
     const Vector3d x = u_.cross(e).normalized();
-    const Stroke stroke = strokeOf(task_, slide, e, d, assumptions_);
+    const Stroke stroke = strokeOf(task_, slide, e, d);
     leg_.stroke_from_file = stroke.from_file;
     s_ = stroke.least;
     l_ = stroke.most - stroke.least;
@@ -135,7 +136,7 @@ class LegMaker {
     const Vector3d e = lengthAndDirection(R - A_, l_), along = lengthAndDirection(B_ - R_outer, s_);
     if (!(u_.cross(B_ - A_).norm() > 1e-9 * task_.size)) refuseLeg("its ball lies on its first axis");
     const Vector3d x_of_leg = u_.cross(B_ - A_).dot(x) > 0 ? x : Vector3d(-x);
-    leg_.knee_positive = along.dot(x_of_leg.cross(e)) < 0;
+    leg_.knee = kneeOf(along.dot(x_of_leg.cross(e)) < 0);
     grows_along_ = {-u_, x_of_leg, x_of_leg};
     proximal_frame_ = placedAt(A_, frameOf(x_of_leg, e));
     distal_frame_ = placedAt(R_outer, frameOf(x_of_leg, along));
@@ -151,8 +152,8 @@ class LegMaker {
     const Vector3d across = offAxis(along, u_);
     if (!(across.norm() > 1e-6)) refuseLeg("its rod lies along the crank's axis, expected it across");
     const Vector3d x_2 = u_.cross(across).normalized();
-    if (!leg_.free_spin) requireUniversalAlong(along);
-    leg_.knee_positive = across.dot(u_.cross(e)) < 0;
+    if (!leg_.spins) requireUniversalAlong(along);
+    leg_.knee = kneeOf(across.dot(u_.cross(e)) < 0);
     grows_along_ = {-u_, -u_, -x_2};
     proximal_frame_ = placedAt(A_, frameOf(u_.cross(e).normalized(), e));
     distal_frame_ = placedAt(C_outer, frameOf(x_2, along));
@@ -167,8 +168,8 @@ class LegMaker {
     const Vector3d along = lengthAndDirection(B_ - C_outer, s_);
     const Vector3d across = offAxis(along, u_);
     if (!(across.norm() > 1e-6)) refuseLeg("its rod lies along the rail, expected it across");
-    if (!leg_.free_spin) requireUniversalAlong(along);
-    leg_.knee_positive = along.dot(u_) > 0;
+    if (!leg_.spins) requireUniversalAlong(along);
+    leg_.knee = kneeOf(along.dot(u_) > 0);
     const Matrix3d to_world = task_.base.linear();
     const Vector3d x = u_.cross(across).normalized();
     grows_along_ = {u_, -u_, x};
@@ -180,9 +181,9 @@ class LegMaker {
   void middleJoint(Vector3d& inner, Vector3d& outer) const {
     const Primitive &first = joints_[1], &second = joints_[2];
     const Vector3d met =
-        leg_.free_spin ? first.inner : commonPerpendicular(first.outer, first.axis, second.inner, second.axis).at;
-    inner = leg_.free_spin ? first.inner : met + first.inner - first.outer;
-    outer = leg_.free_spin ? first.outer : met + second.outer - second.inner;
+        leg_.spins ? first.inner : commonPerpendicular(first.outer, first.axis, second.inner, second.axis).at;
+    inner = leg_.spins ? first.inner : met + first.inner - first.outer;
+    outer = leg_.spins ? first.outer : met + second.outer - second.inner;
   }
 
   /// The universal joint's first axis is the crank's or the rail's; its second is perpendicular to the rod.
@@ -199,7 +200,7 @@ class LegMaker {
                       "{:.4g} m",
                       std::abs(off), task_.choices.tolerance, task_.size));
     if (std::abs(off) > worth_saying * task_.size)
-      assumptions_.push_back(
+      task_.assumptions.push_back(
           {"The ball is assumed to lie in the plane of the leg's links", shape_.place, std::abs(off), "m"});
   }
 
@@ -218,17 +219,18 @@ class LegMaker {
 
   void makeLinks() {
     const bool telescopic = rowOf(leg_.kind).isTelescopic(), carriage = rowOf(leg_.kind).hasCarriage();
-    leg_.proximal = linkOf(task_, proximal_, proximal_frame_, carriage ? 0 : l_, telescopic, assumptions_);
-    leg_.distal = linkOf(task_, distal_, distal_frame_, s_, true, assumptions_);
-    if (leg_.free_spin) {
-      if (telescopic) freeSpin(task_, proximal_, proximal_frame_, true, leg_.proximal, assumptions_);
-      freeSpin(task_, distal_, distal_frame_, true, leg_.distal, assumptions_);
+    leg_.proximal = linkOf(task_, proximal_, proximal_frame_, leg_.proximalLine(), carriage ? 0 : l_, telescopic);
+    leg_.distal = linkOf(task_, distal_, distal_frame_, 2, s_, true);
+    leg_.bodies = {proximal_.name, distal_.name};
+    if (leg_.spins) {
+      if (telescopic) freeSpin(task_, proximal_, proximal_frame_, true, leg_.proximal);
+      freeSpin(task_, distal_, distal_frame_, true, leg_.distal);
     }
-    if (leg_.free_spin) return;
+    if (leg_.spins) return;
     for (const std::size_t group : shape_.spinning) {
       const bool outer = std::find(shape_.distal.begin(), shape_.distal.end(), group) != shape_.distal.end();
       freeSpin(task_, task_.groups.groups[group], outer ? distal_frame_ : proximal_frame_, false,
-               outer ? leg_.distal : leg_.proximal, assumptions_);
+               outer ? leg_.distal : leg_.proximal);
     }
   }
 
@@ -236,15 +238,13 @@ class LegMaker {
     for (std::size_t k = 0; k < joints_.size(); ++k) {
       const double gap = (joints_[k].outer - joints_[k].inner).norm();
       if (gap > 1e-12 * task_.size && !(k > 0 && joints_[k].joint == joints_[k - 1].joint))
-        assumptions_.push_back({"This joint is open at the file's initial pose", joint(k).name, gap, "m"});
+        task_.assumptions.push_back({"This joint is open at the file's initial pose", joint(k).name, gap, "m"});
     }
   }
 
   const LegTask& task_;
   const LegShape& shape_;
   std::vector<Primitive> joints_;
-  Group& platform_;
-  std::vector<Assumption>& assumptions_;
   ImportedLeg leg_;
   Group proximal_, distal_;
   Vector3d A_ = Vector3d::Zero(), B_ = Vector3d::Zero(), base_point_ = Vector3d::Zero(), u_ = Vector3d::UnitX();
@@ -255,9 +255,9 @@ class LegMaker {
 
 }  // namespace
 
-ImportedLeg legOf(const LegTask& task, Group& platform, std::vector<Assumption>& assumptions) {
-  assumptions.insert(assumptions.end(), task.shape.assumptions.begin(), task.shape.assumptions.end());
-  return LegMaker(task, platform, assumptions).make();
+ImportedLeg legOf(const LegTask& task) {
+  task.assumptions.insert(task.assumptions.end(), task.shape.assumptions.begin(), task.shape.assumptions.end());
+  return LegMaker(task).make();
 }
 
 }  // namespace ursula::exchange

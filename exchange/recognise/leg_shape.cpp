@@ -9,7 +9,6 @@
 
 #include "base/scalar.h"
 #include "base/text.h"
-#include "exchange/import_error.h"
 
 namespace ursula::exchange {
 namespace {
@@ -41,19 +40,15 @@ std::string knownChains() {
   return out;
 }
 
-/// A single-axis joint, or a ball from one joint or three hinges, with the body behind it.
-struct Token {
-  Primitive primitive;
-  Body behind;
-};
-
 class Shaper {
  public:
-  Shaper(const ModelGraph& graph, const Groups& groups, const Chain& chain, double size, const ImportChoices& choices)
-      : graph_(graph), groups_(groups), chain_(chain), size_(size), choices_(choices) {
+  Shaper(const ModelGraph& graph, const Chain& chain, double size, const ImportChoices& choices)
+      : graph_(graph),
+        line_(graph.joints[chain.primitives[0].joint].line),
+        tokens_(chain.primitives),
+        size_(size),
+        choices_(choices) {
     shape_.place = chain.place(graph);
-    for (std::size_t k = 0; k < chain.primitives.size(); ++k)
-      tokens_.push_back({chain.primitives[k], k < chain.bodies.size() ? chain.bodies[k] : Body()});
   }
 
   LegShape shape() {
@@ -77,13 +72,12 @@ class Shaper {
 
  private:
   [[noreturn]] void refuseLeg(const std::string& what) const {
-    throw ImportError(fmt::format("the leg of {} {}", shape_.place, what),
-                      graph_.joints[chain_.primitives[0].joint].line);
+    throw ImportError(fmt::format("the leg of {} {}", shape_.place, what), line_);
   }
 
   std::string word() const {
     std::string out;
-    for (const Token& token : tokens_) out += "RPS"[static_cast<int>(token.primitive.kind)];
+    for (const Primitive& token : tokens_) out += "RPS"[static_cast<int>(token.kind)];
     return out;
   }
 
@@ -101,13 +95,12 @@ class Shaper {
         --end;
         continue;
       }
-      Token ball;
-      ball.primitive = tokens_[end - 3].primitive;
-      ball.primitive.kind = Kind::S;
-      ball.primitive.axis.setZero();
-      const Vector3d gap = tokens_[end - 1].primitive.outer - tokens_[end - 1].primitive.inner;
-      ball.primitive.inner = *centre;
-      ball.primitive.outer = *centre + gap;
+      Primitive ball = tokens_[end - 3];
+      ball.kind = Kind::S;
+      ball.axis.setZero();
+      const Vector3d gap = tokens_[end - 1].outer - tokens_[end - 1].inner;
+      ball.inner = *centre;
+      ball.outer = *centre + gap;
       ball.behind = tokens_[end - 1].behind;
       requirePlain({end - 3, end - 2, end - 1}, "a ball");
       for (const std::size_t k : {end - 3, end - 2})
@@ -119,14 +112,14 @@ class Shaper {
       if (end < 3) break;
     }
     for (std::size_t k = 0; k < tokens_.size(); ++k)
-      if (tokens_[k].primitive.kind == Kind::S) requirePlain({k}, "a ball");
+      if (tokens_[k].kind == Kind::S) requirePlain({k}, "a ball");
   }
 
   std::optional<Vector3d> commonPoint(std::size_t first) const {
     Matrix3d sum = Matrix3d::Zero(), axes;
     Vector3d right = Vector3d::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
-      const Primitive& p = tokens_[first + k].primitive;
+      const Primitive& p = tokens_[first + k];
       if (p.kind != Kind::R) return {};
       axes.col(static_cast<Eigen::Index>(k)) = p.axis;
       const Matrix3d across = Matrix3d::Identity() - p.axis * p.axis.transpose();
@@ -136,7 +129,7 @@ class Shaper {
     if (std::abs(axes.determinant()) < 1e-2) return {};
     const Vector3d point = sum.ldlt().solve(right);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Primitive& p = tokens_[first + k].primitive;
+      const Primitive& p = tokens_[first + k];
       if (!((point - p.inner).cross(p.axis).norm() <= tolerance())) return {};
     }
     return point;
@@ -153,7 +146,7 @@ class Shaper {
   /// Requires that no motor drives the joints and no friction acts, because a scenario cannot express that.
   void requirePlain(const std::vector<std::size_t>& tokens, const char* what) const {
     for (const std::size_t k : tokens) {
-      const GraphJoint& joint = graph_.joints[tokens_[k].primitive.joint];
+      const GraphJoint& joint = graph_.joints[tokens_[k].joint];
       const auto complain = [&](const std::string& why) {
         throw ImportError(fmt::format("joint {}, {} of the leg of {}, {}", shown(joint.name), what, shape_.place, why),
                           joint.line);
@@ -177,12 +170,11 @@ class Shaper {
     if (found == "RRRPS" || found == "SRPS") at = found.size() - 3;
     if (at == 0) return;
     const std::size_t last = tokens_.size() - 1;
-    const Primitive& hinge = tokens_[at].primitive;
+    const Primitive& hinge = tokens_[at];
     // The line ends at the ball; it begins at the previous joint, or at the base.
-    const Vector3d ball = tokens_[last].primitive.inner;
+    const Vector3d ball = tokens_[last].inner;
     const bool telescopic = found.find('P') != std::string::npos && found[0] != 'P';
-    const Vector3d from =
-        telescopic ? tokens_[found[0] == 'S' ? 0 : 1].primitive.outer : tokens_[at - 1].primitive.outer;
+    const Vector3d from = telescopic ? tokens_[found[0] == 'S' ? 0 : 1].outer : tokens_[at - 1].outer;
     const double off = (ball - hinge.inner).cross(hinge.axis).norm();
     const double angle = std::asin(std::min(1.0, (ball - from).normalized().cross(hinge.axis).norm()));
     if (!(off <= tolerance() && angle <= choices_.tolerance)) return;
@@ -193,7 +185,7 @@ class Shaper {
     if (tokens_[at].behind) shape_.spinning.push_back(*tokens_[at].behind);
     if (at + 2 < tokens_.size() && tokens_[at + 1].behind) shape_.spinning.push_back(*tokens_[at + 1].behind);
     // A spinning body before a slide belongs to the cylinder, one before the ball to the rod.
-    Token& before = tokens_[at - 1];
+    Primitive& before = tokens_[at - 1];
     (found[at + 1] == 'P' ? extra_proximal_ : extra_distal_) = tokens_[at].behind;
     if (!before.behind) {
       before.behind = tokens_[at].behind;
@@ -202,19 +194,15 @@ class Shaper {
     tokens_.erase(tokens_.begin() + static_cast<std::ptrdiff_t>(at));
   }
 
-  void takeJoints() {
-    for (const Token& token : tokens_) shape_.joints.push_back(token.primitive);
-  }
-
   std::size_t link(std::size_t token) const {
     if (tokens_[token].behind) return *tokens_[token].behind;
     refuseLeg(fmt::format("has no body between joints {} and {}, expected a link",
-                          shown(graph_.joints[tokens_[token].primitive.joint].name),
-                          shown(graph_.joints[tokens_[token + 1].primitive.joint].name)));
+                          shown(graph_.joints[tokens_[token].joint].name),
+                          shown(graph_.joints[tokens_[token + 1].joint].name)));
   }
 
   LegShape finish(std::size_t proximal, std::size_t distal) {
-    takeJoints();
+    shape_.joints = tokens_;
     shape_.proximal.push_back(proximal);
     shape_.distal.push_back(distal);
     if (extra_proximal_) shape_.proximal.push_back(*extra_proximal_);
@@ -237,7 +225,7 @@ class Shaper {
   }
 
   CommonPerpendicular meeting(std::size_t k) const {
-    const Primitive &a = tokens_[k].primitive, &b = tokens_[k + 1].primitive;
+    const Primitive &a = tokens_[k], &b = tokens_[k + 1];
     return commonPerpendicular(a.outer, a.axis, b.inner, b.axis);
   }
 
@@ -248,8 +236,8 @@ class Shaper {
     const CommonPerpendicular met = meeting(k);
     const double off_square = std::abs(std::asin(std::min(1.0, std::cos(met.angle))));
     if (met.apart <= tolerance() && off_square <= choices_.tolerance) {
-      const std::string hinges = fmt::format("{}, {}", graph_.joints[tokens_[k].primitive.joint].name,
-                                             graph_.joints[tokens_[k + 1].primitive.joint].name);
+      const std::string hinges =
+          fmt::format("{}, {}", graph_.joints[tokens_[k].joint].name, graph_.joints[tokens_[k + 1].joint].name);
       use("These hinges' axes are taken to meet; they pass each other", hinges, met.apart, "m", size_);
       use("These hinges' axes are taken to be square", hinges, off_square, "rad", 1);
       return;
@@ -258,17 +246,15 @@ class Shaper {
         fmt::format("has hinges {} and {} whose axes pass each other at {:.6g} m ({:.3g} of the machine's size) and "
                     "have an angle of {:.6g}° between them, expected a universal joint: axes that meet at 90°, "
                     "within {:g} (--tolerance)",
-                    shown(graph_.joints[tokens_[k].primitive.joint].name),
-                    shown(graph_.joints[tokens_[k + 1].primitive.joint].name), met.apart, met.apart / size_,
-                    met.angle * degrees_per_radian, choices_.tolerance));
+                    shown(graph_.joints[tokens_[k].joint].name), shown(graph_.joints[tokens_[k + 1].joint].name),
+                    met.apart, met.apart / size_, met.angle * degrees_per_radian, choices_.tolerance));
   }
 
   const ModelGraph& graph_;
-  const Groups& groups_;
-  const Chain& chain_;
+  int line_;
+  std::vector<Primitive> tokens_;  ///< single-axis joints, and balls of one joint or three hinges
   double size_;
   const ImportChoices& choices_;
-  std::vector<Token> tokens_;
   Body extra_proximal_, extra_distal_;
   LegShape shape_;
 };
@@ -281,9 +267,8 @@ std::optional<std::size_t> LegShape::jointOf(std::size_t coordinate) const {
   return coordinate - 1;
 }
 
-LegShape shapeOf(const ModelGraph& graph, const Groups& groups, const Chain& chain, double size,
-                 const ImportChoices& choices) {
-  return Shaper(graph, groups, chain, size, choices).shape();
+LegShape shapeOf(const ModelGraph& graph, const Chain& chain, double size, const ImportChoices& choices) {
+  return Shaper(graph, chain, size, choices).shape();
 }
 
 }  // namespace ursula::exchange

@@ -30,7 +30,7 @@ struct LegShape {
   std::vector<std::size_t> proximal, distal;  ///< groups
   std::vector<std::size_t> spinning;          ///< groups among them that spin alone about the line on a hinge
   std::vector<Cross> crosses;
-  std::vector<Assumption> assumptions;  ///< the used part of the tolerance
+  Assumptions assumptions;  ///< the used part of the tolerance
 
   /// Index in `joints` of one of the kind's coordinates; nothing if the inner ball replaces it.
   std::optional<std::size_t> jointOf(std::size_t coordinate) const;
@@ -38,8 +38,7 @@ struct LegShape {
 
 /// Finds the universal and ball joints among the primitives. `size` is the machine's, m. Throws ImportError with the
 /// joints found instead, and their distances and angles.
-LegShape shapeOf(const ModelGraph& graph, const Groups& groups, const Chain& chain, double size,
-                 const ImportChoices& choices);
+LegShape shapeOf(const ModelGraph& graph, const Chain& chain, double size, const ImportChoices& choices);
 
 /// The midpoint where two lines are nearest, and their distance there.
 struct CommonPerpendicular {
@@ -59,17 +58,18 @@ struct LegTask {
   double size;                 ///< size of the machine, m
   Eigen::Isometry3d base;      ///< B in the world
   Eigen::Isometry3d platform;  ///< M in the world
+  Group& of_platform;          ///< gets the masses of crosses on it
+  Assumptions& assumptions;
 };
 
 /// Returns the leg in the scenario's terms, measured on its own bodies at the initial pose. Throws ImportError if it
-/// lacks the geometry of its kind. Adds masses of crosses on the platform to `platform`.
-ImportedLeg legOf(const LegTask& task, Group& platform, std::vector<Assumption>& assumptions);
+/// lacks the geometry of its kind.
+ImportedLeg legOf(const LegTask& task);
 
 /// Copies friction, motors and rotors to the coordinates of a leg. The scenario's coordinates grow about or along the
 /// axes `grows_along`, in the world; says where a motor's coordinate in the file grows the other way. Throws
 /// ImportError for a rotor without a motor.
-void takeLegDynamics(const LegTask& task, const std::array<Vector3d, 3>& grows_along, ImportedLeg& leg,
-                     std::vector<Assumption>& assumptions);
+void takeLegDynamics(const LegTask& task, const std::array<Vector3d, 3>& grows_along, ImportedLeg& leg);
 
 /// The lengths of a telescopic leg between which it may move, m.
 struct Stroke {
@@ -78,28 +78,25 @@ struct Stroke {
 };
 
 /// Reads the stroke from a slide's limits. The leg's line is `along`, its length at the initial pose is `length`.
-Stroke strokeOf(const LegTask& task, const Primitive& slide, const Vector3d& along, double length,
-                std::vector<Assumption>& assumptions);
+Stroke strokeOf(const LegTask& task, const Primitive& slide, const Vector3d& along, double length);
 
 /// Returns a physically possible tensor if only the rounding of the file's digits makes it impossible. With
 /// `line_may_be_zero` the third entry may be zero. Throws ImportError for larger errors.
 Matrix3d snapped(const Matrix3d& inertia, double rounding, bool line_may_be_zero, const std::string& body, int line,
-                 std::vector<Assumption>& assumptions);
+                 Assumptions& assumptions);
 
-/// Combines bodies into one link. `frame` is in the world, with its origin at the link's first end and its third axis
+/// Combines bodies into one link. `frame` is in the world, with its origin at the link's first end; its axis `line` is
 /// along it.
-ImportedLink linkOf(const LegTask& task, const Group& link, const Eigen::Isometry3d& frame, double length,
-                    bool line_may_be_zero, std::vector<Assumption>& assumptions);
+Link linkOf(const LegTask& task, const Group& link, const Eigen::Isometry3d& frame, int line, double length,
+            bool line_may_be_zero);
 
 /// Makes `link` exactly round with `keep_moment`, as `spin = "free"` asks; else removes from it the moment about the
 /// line of a freely spinning body, at zero rate. Throws ImportError if that changes the dynamics: unequal transverse
 /// moments, a mass centre off the line.
-void freeSpin(const LegTask& task, const Group& body, const Eigen::Isometry3d& frame, bool keep_moment,
-              ImportedLink& link, std::vector<Assumption>& assumptions);
+void freeSpin(const LegTask& task, const Group& body, const Eigen::Isometry3d& frame, bool keep_moment, Link& link);
 
 /// Reports the loss from the joints' crosses as a share of the leg's moments; adds their masses to the bodies they ride
 /// on.
-void lumpCrosses(const LegTask& task, const Vector3d& base_point, Group& proximal, const Group& distal, Group& platform,
-                 std::vector<Assumption>& assumptions);
+void lumpCrosses(const LegTask& task, const Vector3d& base_point, Group& proximal, const Group& distal);
 
 }  // namespace ursula::exchange

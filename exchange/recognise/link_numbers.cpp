@@ -4,9 +4,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/text.h"
-#include "exchange/import_error.h"
 
 namespace ursula::exchange {
 namespace {
@@ -17,13 +17,13 @@ constexpr double most_of_the_digits = 0.1;  ///< of the largest moment, what rou
 std::string moments(const Vector3d& m) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", m.x(), m.y(), m.z()); }
 
 /// Zeroes off-diagonal entries and offsets that are only the rounding of the rotation.
-void cleanRounding(ImportedLink& link, double mass, double size) {
-  const double largest = link.inertia.cwiseAbs().maxCoeff() + mass * link.center_of_mass.squaredNorm();
+void cleanRounding(Matrix3d& inertia, Vector3d& center, double mass, double size) {
+  const double largest = inertia.cwiseAbs().maxCoeff() + mass * center.squaredNorm();
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      if (i != j && std::abs(link.inertia(i, j)) <= 64 * eps * largest) link.inertia(i, j) = 0;
+      if (i != j && std::abs(inertia(i, j)) <= 64 * eps * largest) inertia(i, j) = 0;
   for (int k = 0; k < 3; ++k)
-    if (std::abs(link.center_of_mass(k)) <= 64 * eps * size) link.center_of_mass(k) = 0;
+    if (std::abs(center(k)) <= 64 * eps * size) center(k) = 0;
 }
 
 double largestMoment(const Matrix3d& inertia) {
@@ -31,11 +31,11 @@ double largestMoment(const Matrix3d& inertia) {
 }
 
 void takeCoordinate(const GraphJoint& from, Coordinate coordinate, std::size_t k, ImportedLeg& leg,
-                    std::vector<Assumption>& assumptions) {
+                    Assumptions& assumptions) {
   leg.actuated[k] = from.driven;
-  leg.damping[k] = from.damping;
-  leg.friction[k] = from.friction;
-  leg.rotor_inertia[k] = from.rotor_inertia;
+  leg.friction.on(coordinate) = from.damping;
+  leg.coulomb.on(coordinate) = from.friction;
+  leg.rotor_inertia.on(coordinate) = from.rotor_inertia;
   if (from.driven) leg.motors.push_back(from.name);
   if (from.rotor_inertia != 0 && !from.driven)
     throw ImportError(
@@ -73,7 +73,7 @@ CommonPerpendicular commonPerpendicular(const Vector3d& p, const Vector3d& along
 }
 
 Matrix3d snapped(const Matrix3d& inertia, double rounding, bool line_may_be_zero, const std::string& body, int line,
-                 std::vector<Assumption>& assumptions) {
+                 Assumptions& assumptions) {
   const Matrix3d symmetric = (inertia + inertia.transpose()) / 2;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(symmetric);
   Vector3d m = principal.eigenvalues();
@@ -104,8 +104,8 @@ Matrix3d snapped(const Matrix3d& inertia, double rounding, bool line_may_be_zero
   return (out + out.transpose()) / 2;
 }
 
-ImportedLink linkOf(const LegTask& task, const Group& link, const Eigen::Isometry3d& frame, double length,
-                    bool line_may_be_zero, std::vector<Assumption>& assumptions) {
+Link linkOf(const LegTask& task, const Group& link, const Eigen::Isometry3d& frame, int line, double length,
+            bool line_may_be_zero) {
   if (!(link.mass > 0))
     throw ImportError(fmt::format("body {}, a link of the leg of {}, has no mass, expected one above zero",
                                   shown(link.name), task.shape.place),
@@ -114,21 +114,21 @@ ImportedLink linkOf(const LegTask& task, const Group& link, const Eigen::Isometr
     throw ImportError(
         fmt::format("body {} has its gravity switched off, which a scenario has no key for", shown(link.name)),
         link.line);
-  ImportedLink out;
+  Link out;
   out.length = length;
   out.mass = link.mass;
-  out.bodies = link.name;
-  out.center_of_mass = frame.inverse() * link.center_of_mass;
+  Vector3d center = frame.inverse() * link.center_of_mass;
   const Matrix3d turn = frame.linear();
   out.inertia = turn.transpose() * link.inertia * turn;
   out.inertia = ((out.inertia + out.inertia.transpose()) / 2).eval();
-  cleanRounding(out, link.mass, task.size);
-  out.inertia = snapped(out.inertia, link.inertia_rounding, line_may_be_zero, link.name, link.line, assumptions);
+  cleanRounding(out.inertia, center, link.mass, task.size);
+  out.inertia = snapped(out.inertia, link.inertia_rounding, line_may_be_zero, link.name, link.line, task.assumptions);
+  out.center_of_mass = std::exchange(center(line), 0);
+  out.off_line = center;
   return out;
 }
 
-void freeSpin(const LegTask& task, const Group& body, const Eigen::Isometry3d& frame, bool keep_moment,
-              ImportedLink& link, std::vector<Assumption>& assumptions) {
+void freeSpin(const LegTask& task, const Group& body, const Eigen::Isometry3d& frame, bool keep_moment, Link& link) {
   const Matrix3d local = frame.linear().transpose() * body.inertia * frame.linear();
   const Vector3d center = frame.inverse() * body.center_of_mass;
   const double off = center.head<2>().norm(), largest = local.cwiseAbs().maxCoeff();
@@ -143,27 +143,26 @@ void freeSpin(const LegTask& task, const Group& body, const Eigen::Isometry3d& f
                     shown(body.name), task.shape.place, share, off),
         body.line);
   if (share > worth_saying)
-    assumptions.push_back(
+    task.assumptions.push_back(
         {"This freely spinning body is assumed to be round; its moments differ by this share", body.name, share, "1"});
   if (off > worth_saying * task.size)
-    assumptions.push_back(
+    task.assumptions.push_back(
         {"This freely spinning body is assumed to have its mass centre on the line", body.name, off, "m"});
   if (keep_moment) {
     const double across = (link.inertia(0, 0) + link.inertia(1, 1)) / 2;
     link.inertia = Vector3d(across, across, link.inertia(2, 2)).asDiagonal();
-    link.center_of_mass.head<2>().setZero();
+    link.off_line.setZero();
   } else {
     link.inertia(2, 2) -= local(2, 2);
     if (std::abs(link.inertia(2, 2)) <= 64 * eps * largest) link.inertia(2, 2) = 0;
   }
-  assumptions.push_back(
+  task.assumptions.push_back(
       {"This rod may spin freely about its line; it does not, and then its moment about the line has no "
        "effect",
        body.name, share, "1"});
 }
 
-void lumpCrosses(const LegTask& task, const Vector3d& base_point, Group& proximal, const Group& distal, Group& platform,
-                 std::vector<Assumption>& assumptions) {
+void lumpCrosses(const LegTask& task, const Vector3d& base_point, Group& proximal, const Group& distal) {
   const double leg_moment =
       largestMoment(proximal.inertiaAbout(base_point)) + largestMoment(distal.inertiaAbout(base_point));
   const double leg_weight = proximal.mass * (proximal.center_of_mass - base_point).norm() +
@@ -184,18 +183,17 @@ void lumpCrosses(const LegTask& task, const Vector3d& base_point, Group& proxima
                       shown(group.name), task.shape.place, share, task.choices.lump),
           group.line);
     const bool at_base = cross.rides == Cross::Rides::base, at_platform = cross.rides == Cross::Rides::platform;
-    if (at_platform) platform.add(group.mass, cross.centre, Matrix3d::Zero());
+    if (at_platform) task.of_platform.add(group.mass, cross.centre, Matrix3d::Zero());
     if (!at_base && !at_platform) proximal.add(group.mass, cross.centre, Matrix3d::Zero());
-    assumptions.push_back({fmt::format("Its tensor is left out, as a share of the leg's moments; its mass {}",
-                                       at_base       ? "rests on the base"
-                                       : at_platform ? "rides on the platform's joint"
-                                                     : "rides on the first link's end"),
-                           group.name, share, "1"});
+    task.assumptions.push_back({fmt::format("Its tensor is left out, as a share of the leg's moments; its mass {}",
+                                            at_base       ? "rests on the base"
+                                            : at_platform ? "rides on the platform's joint"
+                                                          : "rides on the first link's end"),
+                                group.name, share, "1"});
   }
 }
 
-void takeLegDynamics(const LegTask& task, const std::array<Vector3d, 3>& grows_along, ImportedLeg& leg,
-                     std::vector<Assumption>& assumptions) {
+void takeLegDynamics(const LegTask& task, const std::array<Vector3d, 3>& grows_along, ImportedLeg& leg) {
   const auto coordinates = rowOf(leg.kind).coordinates;
   for (std::size_t k = 0; k < coordinates.size(); ++k) {
     // Joints that a ball replaces have no dynamics of their own, as checked before.
@@ -203,9 +201,9 @@ void takeLegDynamics(const LegTask& task, const std::array<Vector3d, 3>& grows_a
     if (!at) continue;
     const Primitive& primitive = task.shape.joints[*at];
     const GraphJoint& joint = task.graph.joints[primitive.joint];
-    takeCoordinate(joint, coordinates[k], k, leg, assumptions);
+    takeCoordinate(joint, coordinates[k], k, leg, task.assumptions);
     if (joint.driven && !slides(coordinates[k]) && grows_along[k].dot(primitive.axis) < 0)
-      assumptions.push_back(
+      task.assumptions.push_back(
           {fmt::format("The file's coordinate of this hinge grows against the scenario's {}: its effort has the other "
                        "sign",
                        nameOf(coordinates[k])),
@@ -213,8 +211,7 @@ void takeLegDynamics(const LegTask& task, const std::array<Vector3d, 3>& grows_a
   }
 }
 
-Stroke strokeOf(const LegTask& task, const Primitive& slide, const Vector3d& along, double length,
-                std::vector<Assumption>& assumptions) {
+Stroke strokeOf(const LegTask& task, const Primitive& slide, const Vector3d& along, double length) {
   const GraphJoint& joint = task.graph.joints[slide.joint];
   const bool grows = slide.axis.dot(along) > 0;
   const double down = joint.lower - joint.position, up = joint.upper - joint.position;
@@ -224,19 +221,19 @@ Stroke strokeOf(const LegTask& task, const Primitive& slide, const Vector3d& alo
   if (!out.from_file) {
     out.least = 2 * length / 3;
     out.most = 4 * length / 3;
-    assumptions.push_back(
+    task.assumptions.push_back(
         {fmt::format("The file {}: a third of the leg's length either way was taken",
                      limited ? "limits this slide's stroke to no usable range" : "does not limit this slide's stroke"),
          joint.name, length / 3, "m"});
   } else if (!(out.least < length && length < out.most)) {
-    assumptions.push_back({"The initial pose lies outside the slide's limits, or at one; the stroke was widened",
-                           joint.name, std::max(out.least - length, length - out.most), "m"});
+    task.assumptions.push_back({"The initial pose lies outside the slide's limits, or at one; the stroke was widened",
+                                joint.name, std::max(out.least - length, length - out.most), "m"});
     const double margin = 0.05 * (out.most - out.least);
     if (!(out.least < length)) out.least = std::max(length - margin, length / 2);
     if (!(length < out.most)) out.most = length + margin;
   }
   if (!grows)
-    assumptions.push_back(
+    task.assumptions.push_back(
         {"The file's coordinate of this slide shortens the leg; d lengthens it", joint.name, -1, "1"});
   return out;
 }

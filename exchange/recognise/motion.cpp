@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "base/scalar.h"
-#include "exchange/import_error.h"
 #include "exchange/leg_pose.h"
 #include "exchange/recognise/legs.h"
 #include "model/legs/leg_type.h"
@@ -34,40 +33,49 @@ struct SmallHelix {
   }
 };
 
-ImportedPose poseAt(const ImportedMachine& machine, const SmallHelix& helix, double share) {
-  return {duration * share, machine.initial.position + helix.offset(share), machine.initial.orientation};
+Motion<double> poseAt(const ImportedMachine& machine, const SmallHelix& helix, double share) {
+  Motion<double> out = machine.initial;
+  out.t = duration * share;
+  out.p += helix.offset(share);
+  return out;
 }
 
-double reserveOf(const ImportedMachine& machine, const ImportedPose& pose, std::size_t& worst) {
+/// The margin of a triangle's third side; at either end the triangle is stretched or folded.
+double within(double least, double value, double most) {
+  return std::min(value - least, most - value) / (most - least);
+}
+
+/// The share of a leg's range, up to 1, that is left at a pose of M in B. It is not positive if the leg cannot take the
+/// pose.
+double reserveOf(const Leg& leg, const Motion<double>& pose) {
+  const LegKindRow& row = rowOf(leg.kind);
+  const Vector3d AB = pose.p + pose.Q * leg.platform_point - leg.base_point;
+  const LegSpan span = spanOf(leg.base_axis, AB);
+  const Reach reach = typeOf(leg.kind).reach(leg, span);
+  const double own = within(reach.least, reach.distance, reach.most);
+  if (row.joints_of_proximal == 2)
+    return std::min(own, span.across / (span.distance + span.across));  // distance from the first axis
+  return row.hasCarriage() ? own : std::min(own, 1 - span.along / leg.distal.length);
+}
+
+double reserveOf(const ImportedMachine& machine, const Motion<double>& pose, std::size_t& worst) {
   double least = 1;
   for (std::size_t i = 0; i < machine.legs.size(); ++i) {
-    const double own = ursula::exchange::reserveOf(machine.legs[i], pose);
+    const double own = reserveOf(machine.legs[i], pose);
     if (own <= least) worst = i;
     least = std::min(least, own);
   }
   return least;
 }
 
-Leg asLeg(const ImportedLeg& leg) {
-  Leg out;
-  out.kind = leg.kind;
-  out.base_point = leg.base_point;
-  out.base_axis = leg.base_axis;
-  out.platform_point = leg.platform_point;
-  out.proximal.length = leg.proximal.length;
-  out.distal.length = leg.distal.length;
-  out.knee = leg.knee_positive ? Knee::positive : Knee::negative;
-  return out;
-}
-
 /// Rates of the driven coordinates for velocities of P, scaled by `size`, and rotations of the platform.
-Matrix6d driveMap(const ImportedMachine& machine, const ImportedPose& pose, double size) {
+Matrix6d driveMap(const ImportedMachine& machine, const Motion<double>& pose, double size) {
   Matrix6d out = Matrix6d::Zero();
   int row = 0;
   for (std::size_t i = 0; i < machine.legs.size(); ++i) {
     const ImportedLeg& leg = machine.legs[i];
-    const Vector3d arm = pose.orientation * leg.platform_point;
-    const LegPose at = legPose(asLeg(leg), static_cast<int>(i), pose.position + arm);
+    const Vector3d arm = pose.Q * leg.platform_point;
+    const LegPose at = legPose(leg, static_cast<int>(i), pose.p + arm);
     Eigen::Matrix<double, 3, 6> tip;
     for (int k = 0; k < 3; ++k) tip.col(k) = size * Vector3d::Unit(k), tip.col(3 + k) = Vector3d::Unit(k).cross(arm);
     const Eigen::Matrix<double, 3, 6> rates = at.at.J.inverse() * tip;
@@ -79,7 +87,7 @@ Matrix6d driveMap(const ImportedMachine& machine, const ImportedPose& pose, doub
 }
 
 /// The distance from singularity: the smallest singular value over the largest, with the determinant's sign.
-double regularity(const ImportedMachine& machine, const ImportedPose& pose, double size) {
+double regularity(const ImportedMachine& machine, const Motion<double>& pose, double size) {
   try {
     const Matrix6d map = driveMap(machine, pose, size);
     const Eigen::JacobiSVD<Matrix6d> svd(map);
@@ -94,7 +102,7 @@ double reserveOf(const ImportedMachine& machine, const SmallHelix& helix, double
   std::size_t worst = 0;
   const double at_start = regularity(machine, machine.initial, size);
   for (int k = 0; k < tried_per_motion && least > 0; ++k) {
-    const ImportedPose pose = poseAt(machine, helix, k / (tried_per_motion - 1.0));
+    const Motion<double> pose = poseAt(machine, helix, k / (tried_per_motion - 1.0));
     least = std::min(least, reserveOf(machine, pose, worst));
     if (least > 0 && std::abs(at_start) > least_regular && !(regularity(machine, pose, size) / at_start > 0.3))
       return 0;
@@ -104,11 +112,11 @@ double reserveOf(const ImportedMachine& machine, const SmallHelix& helix, double
 
 /// Many symmetric hexapods are singular where they are level: the motion then starts turned by a few degrees.
 void turnFromSingular(ImportedMachine& machine, double size) {
-  const ImportedPose given = machine.initial;
+  const Motion<double> given = machine.initial;
   for (const double angle : {0.1, -0.1, 0.2, -0.2})
     for (const int axis : {2, 0, 1}) {
-      ImportedPose turned = given;
-      turned.orientation = Eigen::AngleAxisd(angle, Vector3d::Unit(axis)) * given.orientation;
+      Motion<double> turned = given;
+      turned.Q = Eigen::AngleAxisd(angle, Vector3d::Unit(axis)) * given.Q;
       std::size_t worst = 0;
       if (!(reserveOf(machine, turned, worst) > 0.05) ||
           !(std::abs(regularity(machine, turned, size)) > regular_enough))
@@ -121,23 +129,7 @@ void turnFromSingular(ImportedMachine& machine, double size) {
     }
 }
 
-/// The margin of a triangle's third side; at either end the triangle is stretched or folded.
-double within(double least, double value, double most) {
-  return std::min(value - least, most - value) / (most - least);
-}
-
 }  // namespace
-
-double reserveOf(const ImportedLeg& leg, const ImportedPose& pose) {
-  const LegKindRow& row = rowOf(leg.kind);
-  const Vector3d AB = pose.position + pose.orientation * leg.platform_point - leg.base_point;
-  const LegSpan span = spanOf(leg.base_axis, AB);
-  const Reach reach = typeOf(leg.kind).reach(asLeg(leg), span);
-  const double own = within(reach.least, reach.distance, reach.most);
-  if (row.joints_of_proximal == 2)
-    return std::min(own, span.across / (span.distance + span.across));  // distance from the first axis
-  return row.hasCarriage() ? own : std::min(own, 1 - span.along / leg.distal.length);
-}
 
 void proposeMotion(ImportedMachine& machine, double size) {
   std::size_t worst = 0;

@@ -9,7 +9,6 @@
 
 #include "base/csv_dialect.h"
 #include "base/text.h"
-#include "exchange/import_error.h"
 #include "exchange/recognise/legs.h"
 
 namespace ursula::exchange {
@@ -108,10 +107,10 @@ class Recogniser {
     Group platform = groups.groups[chains.platform];
     const Eigen::Isometry3d B = frameOfBase(), M = frameOfPlatform(platform);
     std::vector<LegShape> shapes;
-    for (const Chain& chain : chains.legs) shapes.push_back(shapeOf(graph_, groups, chain, size, choices_));
+    for (const Chain& chain : chains.legs) shapes.push_back(shapeOf(graph_, chain, size, choices_));
     requireMotors(chains, shapes);
     for (const LegShape& shape : shapes)
-      machine_.legs.push_back(legOf({graph_, groups, shape, choices_, size, B, M}, platform, machine_.assumptions));
+      machine_.legs.push_back(legOf({graph_, groups, shape, choices_, size, B, M, platform, machine_.assumptions}));
     takePlatform(platform, B, M);
     sayOrder();
     sayLimits(chains);
@@ -172,13 +171,13 @@ class Recogniser {
       throw ImportError(fmt::format("the platform, {}, has no mass, expected one above zero", shown(platform.name)),
                         platform.line);
     machine_.gravity = B.linear().transpose() * graph_.gravity;
-    machine_.platform_mass = platform.mass;
-    machine_.platform_center = M.inverse() * platform.center_of_mass;
     const Matrix3d local = M.linear().transpose() * platform.inertia * M.linear();
-    machine_.platform_inertia =
-        snapped(local, platform.inertia_rounding, false, platform.name, platform.line, machine_.assumptions);
+    machine_.of_platform = {
+        platform.mass, M.inverse() * platform.center_of_mass,
+        snapped(local, platform.inertia_rounding, false, platform.name, platform.line, machine_.assumptions)};
     const Eigen::Isometry3d pose = B.inverse() * M;
-    machine_.initial = {0, pose.translation(), pose.linear()};
+    machine_.initial.p = pose.translation();
+    machine_.initial.Q = pose.linear();
   }
 
   /// Several motors of one leg stand together, in the order of its joints.

@@ -50,7 +50,7 @@ enum class ModelFormat { sdf, mjcf, urdf };
 /// A model file, and notes on the parts of the scenario that it lacks.
 struct WrittenModel {
   std::string text;
-  std::vector<Assumption> notes;
+  Assumptions notes;
 };
 
 /// Writes the scenario's machine at the first instant of its motion. Throws UnreachablePose.
@@ -58,8 +58,8 @@ WrittenModel exportScenario(const Scenario& scenario, ModelFormat format);
 
 // The individual formats; each adds to `notes` what it cannot hold.
 
-std::string sdfText(const MachineModel& machine, std::vector<Assumption>& notes);
-std::string mjcfText(const MachineModel& machine, std::vector<Assumption>& notes);
-std::string urdfText(const MachineModel& machine, std::vector<Assumption>& notes);
+std::string sdfText(const MachineModel& machine, Assumptions& notes);
+std::string mjcfText(const MachineModel& machine, Assumptions& notes);
+std::string urdfText(const MachineModel& machine, Assumptions& notes);
 
 }  // namespace ursula::exchange

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "exchange/leg_pose.h"
@@ -202,17 +203,8 @@ WrittenModel exportScenario(const Scenario& scenario, ModelFormat format) {
   const MachineModel machine = modelOf(scenario);
   WrittenModel out;
   out.notes = machine.graph.assumptions;
-  switch (format) {
-    case ModelFormat::sdf:
-      out.text = sdfText(machine, out.notes);
-      break;
-    case ModelFormat::mjcf:
-      out.text = mjcfText(machine, out.notes);
-      break;
-    case ModelFormat::urdf:
-      out.text = urdfText(machine, out.notes);
-      break;
-  }
+  constexpr std::array texts = {sdfText, mjcfText, urdfText};
+  out.text = texts.at(static_cast<std::size_t>(format))(machine, out.notes);
   return out;
 }
 

@@ -152,6 +152,6 @@ class MjcfWriter {
 
 }  // namespace
 
-std::string mjcfText(const MachineModel& machine, std::vector<Assumption>&) { return MjcfWriter(machine).text(); }
+std::string mjcfText(const MachineModel& machine, Assumptions&) { return MjcfWriter(machine).text(); }
 
 }  // namespace ursula::exchange

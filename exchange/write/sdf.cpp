@@ -16,7 +16,7 @@ constexpr double max_step = 0.0005;  ///< s
 
 class SdfWriter {
  public:
-  SdfWriter(const MachineModel& machine, std::vector<Assumption>& notes)
+  SdfWriter(const MachineModel& machine, Assumptions& notes)
       : machine_(machine), graph_(machine.graph), notes_(notes), document_("sdf") {}
 
   std::string text() {
@@ -73,12 +73,7 @@ class SdfWriter {
     inertial.add("pose", numberText(own.center_of_mass) + " 0 0 0");
     inertial.add("mass", body.mass);
     const Xml inertia = inertial.add("inertia");
-    inertia.add("ixx", own.inertia(0, 0));
-    inertia.add("ixy", own.inertia(0, 1));
-    inertia.add("ixz", own.inertia(0, 2));
-    inertia.add("iyy", own.inertia(1, 1));
-    inertia.add("iyz", own.inertia(1, 2));
-    inertia.add("izz", own.inertia(2, 2));
+    for (const auto& [name, row, column] : inertia_entries) inertia.add(name, own.inertia(row, column));
     int drawn = 0;
     for (const DrawnRod& rod : machine_.rods) {
       if (rod.body != index) continue;
@@ -157,14 +152,12 @@ class SdfWriter {
 
   const MachineModel& machine_;
   const ModelGraph& graph_;
-  std::vector<Assumption>& notes_;
+  Assumptions& notes_;
   XmlDocument document_;
 };
 
 }  // namespace
 
-std::string sdfText(const MachineModel& machine, std::vector<Assumption>& notes) {
-  return SdfWriter(machine, notes).text();
-}
+std::string sdfText(const MachineModel& machine, Assumptions& notes) { return SdfWriter(machine, notes).text(); }
 
 }  // namespace ursula::exchange

@@ -43,13 +43,8 @@ class UrdfWriter {
       const Xml inertial = link.add("inertial");
       inertial.add("origin").with("xyz", own.center_of_mass).with("rpy", "0 0 0");
       inertial.add("mass").with("value", body.mass);
-      inertial.add("inertia")
-          .with("ixx", own.inertia(0, 0))
-          .with("ixy", own.inertia(0, 1))
-          .with("ixz", own.inertia(0, 2))
-          .with("iyy", own.inertia(1, 1))
-          .with("iyz", own.inertia(1, 2))
-          .with("izz", own.inertia(2, 2));
+      const Xml inertia = inertial.add("inertia");
+      for (const auto& [name, row, column] : inertia_entries) inertia.with(name, own.inertia(row, column));
     }
     for (const DrawnRod& rod : machine_.rods) {
       if (rod.body != index) continue;
@@ -160,7 +155,7 @@ class UrdfWriter {
 
 }  // namespace
 
-std::string urdfText(const MachineModel& machine, std::vector<Assumption>& notes) {
+std::string urdfText(const MachineModel& machine, Assumptions& notes) {
   const Vector3d& gravity = machine.graph.gravity;
   notes.push_back(
       {fmt::format("URDF has no gravity: but for MuJoCo and an import, set [{}, {}, {}], in the base's axes",

@@ -3,6 +3,7 @@
 #include <tinyxml2.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <string>
 
 #include "base/scalar.h"
@@ -25,6 +26,14 @@ Vector3d rollPitchYaw(const Matrix3d& rotation);
 std::string poseText(const Eigen::Isometry3d& pose);
 /// A frame midway between two points, with z from the first to the second.
 Eigen::Isometry3d between(const Vector3d& from, const Vector3d& to);
+
+/// An entry of an inertia tensor in the words of SDF and URDF.
+struct InertiaEntry {
+  const char* name;
+  int row, column;
+};
+constexpr std::array<InertiaEntry, 6> inertia_entries = {
+    {{"ixx", 0, 0}, {"ixy", 0, 1}, {"ixz", 0, 2}, {"iyy", 1, 1}, {"iyz", 1, 2}, {"izz", 2, 2}}};
 
 /// A handle for filling an element. tinyxml2 escapes text.
 class Xml {

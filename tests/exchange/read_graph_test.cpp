@@ -8,7 +8,6 @@
 #include <string>
 
 #include "exchange/import.h"
-#include "exchange/import_error.h"
 
 namespace ursula::exchange {
 namespace {

@@ -30,23 +30,6 @@ void takeDynamics(const Element& joint_element, const Element& dynamics, GraphJo
     refuse(joint_element, fmt::format("a spring of {}, which a scenario has no words for", stiffness));
 }
 
-Matrix3d tensorIn(const Element& inertia, GraphBody& body, std::vector<Assumption>& assumptions) {
-  std::array<double, 6> entries = {1, 1, 1, 0, 0, 0};
-  constexpr std::array<const char*, 6> names = {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const std::string text = childText(inertia, names[k]);
-    if (text.empty()) {
-      if (k < 3 && !body.fixed)
-        assumptions.push_back(
-            {fmt::format("The file gives no {}: SDF's default of 1 kg·m² was taken", names[k]), body.name, 1, "kg·m²"});
-      continue;
-    }
-    entries[k] = numberOf(inertia, text, names[k]);
-    body.inertia_rounding = std::max(body.inertia_rounding, halfLastDigit(text));
-  }
-  return tensorOf({entries[0], entries[1], entries[2]}, {entries[3], entries[4], entries[5]});
-}
-
 /// What cannot be had as numbers: added mass of a fluid, an inertia from shapes.
 void requirePlain(const Element& link, const Element& inertial) {
   if (inertial.FirstChildElement("fluid_added_mass"))
@@ -69,11 +52,7 @@ std::string valueOf(const Element& element, const char* child, const char* of_ur
 }
 
 void addBall(const Element& element, ModelGraph& graph, const BodyByName& body) {
-  GraphJoint ball;
-  ball.name = attribute(element, "name").empty() ? fmt::format("drake:ball_constraint of line {}", element.GetLineNum())
-                                                 : attribute(element, "name");
-  ball.line = element.GetLineNum();
-  ball.kind = JointKind::ball;
+  GraphJoint ball = jointAt(element, nameOr(element, "drake:ball_constraint"), JointKind::ball);
   ball.closure = true;
   const auto side = [&](const char* name, const char* point, std::size_t& index, Vector3d& centre) {
     const std::string named = valueOf(element, name, "name"), at = valueOf(element, point, "value");
@@ -87,6 +66,84 @@ void addBall(const Element& element, ModelGraph& graph, const BodyByName& body) 
 }
 
 }  // namespace
+
+SdfFrames::SdfFrames() : frames_(1), names_(1), done_(1, 1), in_world_(1, Eigen::Isometry3d::Identity()) {
+  names_[0].emplace("world", world);
+}
+
+std::size_t SdfFrames::add(const std::string& name, Frame frame) {
+  const std::size_t index = frames_.size();
+  if (!names_[frame.scope].emplace(name, index).second)
+    refuse(*frame.element, fmt::format("a second '{}' in one model, expected unique names", shown(name)));
+  frames_.push_back(std::move(frame));
+  names_.emplace_back();
+  done_.push_back(0);
+  in_world_.push_back(Eigen::Isometry3d::Identity());
+  return index;
+}
+
+std::size_t SdfFrames::find(const Element& at, std::size_t scope, const std::string& name, const char* what) const {
+  if (name == "__model__") return scope;
+  std::size_t from = 0;
+  while (true) {
+    if (const auto whole = names_[scope].find(name.substr(from)); whole != names_[scope].end()) return whole->second;
+    const std::size_t end = name.find("::", from);
+    const auto next = names_[scope].find(name.substr(from, end == std::string::npos ? end : end - from));
+    if (end == std::string::npos || next == names_[scope].end()) break;
+    scope = next->second;
+    from = end + 2;
+  }
+  if (name == "world") return world;
+  std::vector<std::string> known;
+  for (const auto& [each, index] : names_[scope])
+    if (known.size() < 1000) known.push_back(each);
+  std::sort(known.begin(), known.end());
+  refuse(at, fmt::format("{} '{}': nothing has that name here{}", what, shown(name), didYouMean(name, known)));
+}
+
+std::size_t SdfFrames::parentOf(std::size_t i) const {
+  const Frame& frame = frames_[i];
+  if (frame.relative_to.empty()) return frame.parent;
+  return find(*frame.element, frame.scope, frame.relative_to, "relative_to");
+}
+
+Eigen::Isometry3d SdfFrames::inWorld(std::size_t frame) {
+  std::vector<std::size_t> open;
+  for (std::size_t i = frame; done_[i] != 1; i = parentOf(i)) {
+    if (done_[i] == 2) refuse(*frames_[i].element, "its pose is relative to itself, in a circle");
+    done_[i] = 2;
+    open.push_back(i);
+  }
+  for (auto i = open.rbegin(); i != open.rend(); ++i) {
+    in_world_[*i] = in_world_[parentOf(*i)] * frames_[*i].pose;
+    done_[*i] = 1;
+  }
+  return in_world_[frame];
+}
+
+void SdfFrames::requireSound() {
+  std::vector<std::size_t> state(frames_.size(), none);  // the frame from which each was met
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    static_cast<void>(inWorld(i));
+    for (std::size_t at = i; frames_[at].kind == Kind::frame && state[at] == none;) {
+      const Frame& here = frames_[at];
+      state[at] = i;
+      at = find(*here.element, here.scope, here.attached_to.empty() ? "__model__" : here.attached_to, "attached_to");
+      if (state[at] == i) refuse(*here.element, "is attached to itself, in a circle");
+    }
+  }
+}
+
+std::size_t SdfFrames::bodyOf(const Element& at, std::size_t frame) const {
+  for (std::size_t step = 0; step <= frames_.size(); ++step) {
+    const Frame& here = frames_[frame];
+    if (here.kind == Kind::world) return none;
+    if (here.body != none) return here.body;  // a link, or a model's first link
+    if (here.kind == Kind::model) refuse(at, "a model without links, expected a link");
+    frame = find(*here.element, here.scope, here.attached_to.empty() ? "__model__" : here.attached_to, "attached_to");
+  }
+  refuse(at, "its frame is attached to itself, in a circle");
+}
 
 Eigen::Isometry3d sdfPoseOf(const Element& element) {
   const Element* pose = onlyChild(element, "pose");
@@ -105,7 +162,7 @@ Eigen::Isometry3d sdfPoseOf(const Element& element) {
   return placed(position, rollPitchYaw(angles));
 }
 
-void takeSdfInertial(const Element& link, GraphBody& body, std::vector<Assumption>& assumptions) {
+void takeSdfInertial(const Element& link, GraphBody& body, Assumptions& assumptions) {
   const Element* inertial = onlyChild(link, "inertial");
   Eigen::Isometry3d at = body.frame;
   std::string mass;
@@ -125,13 +182,20 @@ void takeSdfInertial(const Element& link, GraphBody& body, std::vector<Assumptio
                                  "is given, was taken"
                                : "The file gives no inertia: SDF's default of 1 kg·m² was taken",
                            body.name, 1, mass.empty() ? "kg" : "kg·m²"});
-  const Matrix3d tensor = inertia == nullptr ? Matrix3d::Identity() : tensorIn(*inertia, body, assumptions);
   body.center_of_mass = at.translation();
-  body.inertia = at.linear() * tensor * at.linear().transpose();
+  body.inertia.setIdentity();
+  if (inertia == nullptr) return;
+  const auto missing = [&](std::size_t k, const char* name) {
+    if (k < 3 && !body.fixed)
+      assumptions.push_back(
+          {fmt::format("The file gives no {}: SDF's default of 1 kg·m² was taken", name), body.name, 1, "kg·m²"});
+    return k < 3 ? 1.0 : 0.0;
+  };
+  takeInertia(*inertia, childText, at, missing, body);
 }
 
 void takeSdfMotion(const Element& joint_element, const Element& axis, bool endless, GraphJoint& joint,
-                   std::vector<Assumption>& assumptions) {
+                   Assumptions& assumptions) {
   if (axis.FirstChildElement("mimic")) refuse(joint_element, "mimic, which a scenario has no words for");
   if (!endless) takeLimits(joint_element, axis, joint);
   if (const std::string driven = attribute(axis, "ursula:driven"); !driven.empty())
@@ -163,7 +227,7 @@ void takeRubbing(const Element& joint_element, const Element& dynamics, TextOfWo
   joint.smoothing_speed = speed.empty() ? 0 : numberOf(dynamics, speed, "ursula:smoothing_speed");
 }
 
-void listPlugins(const Element& element, const std::string& of, std::vector<Assumption>& assumptions) {
+void listPlugins(const Element& element, const std::string& of, Assumptions& assumptions) {
   eachChild(element, "plugin", [&](const Element& e) {
     const std::string file = attribute(e, "filename");
     for (const char* word : {"mimic", "spring"})
@@ -171,7 +235,7 @@ void listPlugins(const Element& element, const std::string& of, std::vector<Assu
         refuse(e, fmt::format("{} lets a joint follow another or pulls at it, which a scenario has no words for",
                               shown(file)));
     assumptions.push_back(
-        {fmt::format("The plugin {} is left out, with the forces that it may bring", shown(file)), of, 0, "1"});
+        {fmt::format("The plugin {} is left out, with the forces that it may bring", shown(file)), of});
   });
 }
 
@@ -183,12 +247,12 @@ void refuseSdfDecay(const Element& element, const std::string& factor) {
       refuse(element, fmt::format("a decay of velocity of {}, which a scenario has no words for", text));
 }
 
-void refuseSdfIncludes(const Element& scope, std::vector<Assumption>& assumptions) {
+void refuseSdfIncludes(const Element& scope, Assumptions& assumptions) {
   eachChild(scope, "include", [&](const Element& include) {
     const std::string uri = childText(include, "uri");
     if (std::string(scope.Name()) == "world" && (uri == "model://sun" || uri == "model://ground_plane"))
       assumptions.push_back({fmt::format("{} is left out: light and floor are no part of a machine", uri),
-                             fmt::format("<include> of line {}", include.GetLineNum()), 0, "1"});
+                             fmt::format("<include> of line {}", include.GetLineNum())});
     else
       refuse(include, fmt::format("includes {}, which is not fetched; put its <model> into this file (gz sdf -p FILE)",
                                   shown(uri)));
