@@ -1,5 +1,6 @@
 // Angles in degrees, for keys that say so.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
@@ -42,13 +43,15 @@ TEST(ScenarioAngles, aHelixInDegreesIsTheSameMotion) {
 
 TEST(ScenarioAngles, rollPitchAndYawTurnAboutFixedAxes) {
   const auto turn = [](double degrees, const Vector3d& axis) { return Eigen::AngleAxisd(radians(degrees), axis); };
-  const Matrix3d expected =
-      (turn(30, Vector3d::UnitZ()) * turn(-20, Vector3d::UnitY()) * turn(10, Vector3d::UnitX())).toRotationMatrix();
-  EXPECT_LE((orientationOf("rpy_deg = [10, -20, 30]") - expected).norm(), 1e-15);
-  // Another order is another orientation.
-  const Matrix3d other =
-      (turn(10, Vector3d::UnitX()) * turn(-20, Vector3d::UnitY()) * turn(30, Vector3d::UnitZ())).toRotationMatrix();
-  EXPECT_GE((expected - other).norm(), 0.1);
+  for (const Vector3d& rpy : {Vector3d(10.3, -20.7, 33.1), Vector3d(0, 0, 180), Vector3d(180, 0, 0),
+                              Vector3d(90, 90, -170), Vector3d(-179.9, 12, 0.001)}) {
+    const auto roll = turn(rpy.x(), Vector3d::UnitX()), pitch = turn(rpy.y(), Vector3d::UnitY()),
+               yaw = turn(rpy.z(), Vector3d::UnitZ());
+    const Matrix3d read = orientationOf(fmt::format("rpy_deg = [{}, {}, {}]", rpy.x(), rpy.y(), rpy.z()));
+    EXPECT_LE((read - (yaw * pitch * roll).toRotationMatrix()).norm(), 1e-15);
+    const bool about_one_axis = (rpy.array() == 0).count() == 2;
+    EXPECT_TRUE(about_one_axis || (read - (roll * pitch * yaw).toRotationMatrix()).norm() > 1e-3) << "another order";
+  }
   EXPECT_EQ(orientationOf("rpy_deg = [0, 0, 180]"), Matrix3d(Vector3d(-1, -1, 1).asDiagonal()));
 }
 

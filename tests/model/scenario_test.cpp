@@ -70,9 +70,9 @@ TEST(Scenario, takesIntegersForNumbers) {
 }
 
 TEST(Scenario, letsALegOverrideAnyKeyAndKeepsTheRest) {
-  const std::string own =
+  const std::string own =  // ψ is `universal` in the defaults
       "[-0.0667, -1.3847, 0.0]\nknee = \"negative\"\nproximal = { mass = 11 }\n"
-      "friction = { universal = 0.75 }\ncoulomb = { knee = 2, smoothing_speed = 0.5 }";
+      "friction = { psi = 0.75 }\ncoulomb = { knee = 2, smoothing_speed = 0.5 }";
   const Scenario scenario = parsed("[-0.0667, -1.3847, 0.0]", own);
   const Leg& leg = scenario.manipulator->leg(0);
   EXPECT_EQ(leg.knee, Knee::negative);
