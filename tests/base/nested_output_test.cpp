@@ -3,24 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <filesystem>
-#include <string>
 #include <thread>
 
-#include "base/output_folder.h"
-#include "tests/base/temporary_folder.h"
+#include "tests/base/output_runs.h"
 
 namespace ursula {
 namespace {
 
 namespace fs = std::filesystem;
-
-void writeRun(const fs::path& folder, const std::string& text) {
-  OutputFolder out(folder, [](const fs::path&) { return Paths{"a", "b"}; });
-  out.write("a", text);
-  out.write("b", text);
-  out.commit();
-}
 
 /// Runs write in `inner` until `outer` was replaced eight times. Returns the number of runs.
 int writeInside(const fs::path& inner, const fs::path& outer) {
@@ -35,7 +25,7 @@ int writeInside(const fs::path& inner, const fs::path& outer) {
     const std::string text = std::to_string(runs);
     EXPECT_NO_THROW(writeRun(inner, text));
     EXPECT_EQ(TemporaryFolder::read(inner / "a"), text);
-    EXPECT_EQ(TemporaryFolder::read(inner / "b"), text);
+    EXPECT_EQ(TemporaryFolder::read(inner / "sub/a"), text);
   }
   replaces.join();
   return runs;
