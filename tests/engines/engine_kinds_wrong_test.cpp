@@ -9,27 +9,32 @@
 #include <string>
 
 #include "tests/engines/engine_kinds.h"
+#include "tests/support/numbers.h"
 
 namespace ursula {
 namespace {
 
 struct Wrong {
   const char* what;
-  std::function<void(Leg&, double)> change;  ///< by this share of itself
+  std::function<void(ManipulatorParameters&, Leg&, double)> change;  ///< by this share of itself
 };
 
 const std::vector<Wrong> wrongs = {
-    {"base_point", [](Leg& leg, double by) { leg.base_point.y() += by; }},
-    {"base_axis", [](Leg& leg, double by) { leg.base_axis.z() += by; }},
-    {"platform_point", [](Leg& leg, double by) { leg.platform_point.z() += by; }},
-    {"proximal.mass", [](Leg& leg, double by) { leg.proximal.mass *= 1 + by; }},
-    {"distal.length", [](Leg& leg, double by) { leg.distal.length *= 1 + by; }},
-    {"distal.mass", [](Leg& leg, double by) { leg.distal.mass *= 1 + by; }},
-    {"distal.center_of_mass", [](Leg& leg, double by) { leg.distal.center_of_mass += by; }},
-    {"distal.inertia", [](Leg& leg, double by) { leg.distal.inertia *= 1 + by; }},
-    {"distal.off_line", [](Leg& leg, double by) { leg.distal.off_line.x() += by; }},
+    {"gravity", [](auto& machine, Leg&, double by) { machine.gravity.z() *= 1 + by; }},
+    {"platform.mass", [](auto& machine, Leg&, double by) { machine.platform.mass *= 1 + by; }},
+    {"platform.center_of_mass", [](auto& machine, Leg&, double by) { machine.platform.center_of_mass.x() += by; }},
+    {"platform.inertia", [](auto& machine, Leg&, double by) { machine.platform.inertia(1, 1) *= 1 + by; }},
+    {"base_point", [](auto&, Leg& leg, double by) { leg.base_point.y() += by; }},
+    {"base_axis", [](auto&, Leg& leg, double by) { leg.base_axis.z() += by; }},
+    {"platform_point", [](auto&, Leg& leg, double by) { leg.platform_point.z() += by; }},
+    {"proximal.mass", [](auto&, Leg& leg, double by) { leg.proximal.mass *= 1 + by; }},
+    {"distal.length", [](auto&, Leg& leg, double by) { leg.distal.length *= 1 + by; }},
+    {"distal.mass", [](auto&, Leg& leg, double by) { leg.distal.mass *= 1 + by; }},
+    {"distal.center_of_mass", [](auto&, Leg& leg, double by) { leg.distal.center_of_mass += by; }},
+    {"distal.inertia", [](auto&, Leg& leg, double by) { leg.distal.inertia *= 1 + by; }},
+    {"distal.off_line", [](auto&, Leg& leg, double by) { leg.distal.off_line.x() += by; }},
     {"rotor_inertia",
-     [](Leg& leg, double by) {
+     [](auto&, Leg& leg, double by) {
        for (std::size_t j = 0; j < 3; ++j)
          if (leg.actuated[j]) leg.rotor_inertia.on(rowOf(leg.kind).coordinates[j]) += 10 * by;
      }},
@@ -37,9 +42,9 @@ const std::vector<Wrong> wrongs = {
 
 /// Parameters without effect on some kinds: a carriage does not turn, and a cylinder's length only limits its stroke.
 const std::vector<Wrong> at_times_idle = {
-    {"proximal.length", [](Leg& leg, double by) { leg.proximal.length *= 1 + by; }},
-    {"proximal.center_of_mass", [](Leg& leg, double by) { leg.proximal.center_of_mass += by; }},
-    {"proximal.inertia", [](Leg& leg, double by) { leg.proximal.inertia *= 1 + by; }},
+    {"proximal.length", [](auto&, Leg& leg, double by) { leg.proximal.length *= 1 + by; }},
+    {"proximal.center_of_mass", [](auto&, Leg& leg, double by) { leg.proximal.center_of_mass += by; }},
+    {"proximal.inertia", [](auto&, Leg& leg, double by) { leg.proximal.inertia *= 1 + by; }},
 };
 
 bool isIdle(LegKind kind, const std::string& what) {
@@ -55,30 +60,28 @@ class OnEachKind : public testing::TestWithParam<int> {
   const double size_ = largest(efforts_[0]);
 
   /// Returns the smallest change over all formulations, which must all change alike.
-  double leastChange(const std::function<void(Leg&)>& change, const char* what) {
+  double leastChange(const Wrong& wrong) {
     ManipulatorParameters parameters = right_.machine;
-    change(parameters.legs[leg_]);
+    wrong.change(parameters, parameters.legs[leg_], 1e-3);
     const Manipulator machine(parameters);
     const std::vector<Vector6d> changed = byEngines(machine, right_.load, right_.motion);
     const Vector6d expected = bySolver(machine, right_.load.get(), right_.motion).value();
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < changed.size(); ++k) {
       least = std::min(least, largest(changed[k] - efforts_[k]));
-      EXPECT_LE(largest(changed[k] - expected), room * size_) << what;
+      EXPECT_LE(largest(changed[k] - expected), room * size_) << wrong.what;
     }
     return least / size_;
   }
 };
 
 TEST_P(OnEachKind, everyParameterHasASay) {
-  for (const Wrong& wrong : wrongs)
-    EXPECT_GT(leastChange([&](Leg& leg) { wrong.change(leg, 1e-3); }, wrong.what), 1e3 * room) << wrong.what;
-  for (const Wrong& wrong : at_times_idle) {
-    const double change = leastChange([&](Leg& leg) { wrong.change(leg, 1e-3); }, wrong.what);
-    EXPECT_EQ(change > 1e3 * room, !isIdle(kind_, wrong.what)) << wrong.what << ' ' << change;
-  }
-  const auto bend = [](Leg& leg) { leg.knee = leg.knee == Knee::positive ? Knee::negative : Knee::positive; };
-  EXPECT_EQ(leastChange(bend, "knee") > 1e-3, rowOf(kind_).knee != nullptr);
+  for (const Wrong& wrong : wrongs) EXPECT_GT(leastChange(wrong), 1e3 * room) << wrong.what;
+  for (const Wrong& wrong : at_times_idle)
+    EXPECT_EQ(leastChange(wrong) > 1e3 * room, !isIdle(kind_, wrong.what)) << wrong.what;
+  const Wrong bend{
+      "knee", [](auto&, Leg& leg, double) { leg.knee = leg.knee == Knee::positive ? Knee::negative : Knee::positive; }};
+  EXPECT_EQ(leastChange(bend) > 1e-3, rowOf(kind_).knee != nullptr);
 }
 
 /// Friction on a driven coordinate acts on its motor, against its rate; on another coordinate it has an effect, too.
@@ -116,15 +119,17 @@ INSTANTIATE_TEST_SUITE_P(Legs, OnEachKind, testing::Range(0, 4));
 /// Each way out of reach: a length that is too short or too long at a right pose.
 TEST(EnginesOfKinds, refuseWhatALegCannotReach) {
   const KindCase right = goodCase({U, T, R, P}, 102);
-  const auto refuses = [&](std::size_t leg, double proximal, double distal) {
+  const auto refuses = [&](std::size_t leg, double proximal, double distal, double height = 0) {
     ManipulatorParameters parameters = right.machine;
     parameters.legs[leg].proximal.length *= proximal;
     parameters.legs[leg].distal.length *= distal;
     const Manipulator machine(parameters);
     const std::string expected = "leg " + std::to_string(leg + 1) + " cannot reach";
+    Motion<double> motion = right.motion;
+    motion.p.z() += height;
     const auto thrown = [&](Engine& engine) {
       try {
-        engine.inverseDynamics(right.motion);
+        engine.inverseDynamics(motion);
         return false;
       } catch (const std::domain_error& error) {
         EXPECT_THAT(error.what(), testing::HasSubstr(expected));
@@ -149,6 +154,21 @@ TEST(EnginesOfKinds, refuseWhatALegCannotReach) {
   EXPECT_TRUE(refuses(2, 9, 1)) << "crank too long";
   EXPECT_TRUE(refuses(3, 1, 0.4)) << "rail too far";
   EXPECT_FALSE(refuses(3, 0.1, 1)) << "a carriage's length is for drawing";
+  EXPECT_TRUE(refuses(0, 1, 1, nan)) << "no number";
+}
+
+TEST(EnginesOfKinds, areAsGoodAfterAPoseOutOfReach) {
+  if (!mujocoAvailable()) GTEST_SKIP() << "built without MuJoCo";
+  const KindCase right = goodCase({U, T, R, P}, 102);
+  MujocoLoop loop(Manipulator(right.machine), right.load);
+  const Vector6d before = loop.inverseDynamics(right.motion);
+  Motion<double> motion = right.motion;
+  motion.p.z() += 100;
+  EXPECT_THROW(loop.inverseDynamics(motion), std::domain_error);
+  EXPECT_EQ(loop.inverseDynamics(right.motion), before);
+  motion = right.motion;
+  motion.omega.x() = nan;
+  EXPECT_TRUE(loop.inverseDynamics(motion).hasNaN());
 }
 
 }  // namespace

@@ -262,13 +262,6 @@ TEST_P(AddedInertia, everyInstructionSetHasThem) {
 TEST_P(AddedInertia, derivativesAndRegressorHaveThem) {
   const EffortDerivatives of(machine_);
   const Motion<double> at = rounded(rows_[3].motion);
-  const Motion<Real> exactly{Real(at.t),
-                             at.p.cast<Real>(),
-                             at.Q.cast<Real>(),
-                             at.omega.cast<Real>(),
-                             at.p_dot.cast<Real>(),
-                             at.omega_dot.cast<Real>(),
-                             at.p_ddot.cast<Real>()};
   const EffortDerivatives::Columns found = of.byParameters(at);
   const std::vector<MachineNumber> numbers = machineNumbers(machine_.parameters());
   const Vector6d efforts = FastDynamics<double>(machine_).inverseDynamics(at);
@@ -278,7 +271,7 @@ TEST_P(AddedInertia, derivativesAndRegressorHaveThem) {
     const auto with = [&](double by) {
       ManipulatorParameters changed = machine_.parameters();
       numbers[k].set(changed, numbers[k].get(changed) + by);
-      return FastDynamics<Real>(Manipulator(changed)).inverseDynamics(exactly);
+      return FastDynamics<Real>(Manipulator(changed)).inverseDynamics(exactly(at));
     };
     const double h = 0x1p-20;
     const Vector6d expected = Six((with(h) - with(-h)) / Real(2 * h)).cast<double>();
@@ -306,9 +299,7 @@ TEST(AddedInertiaOfRotors, aWrongRotorIsSeen) {
 
 const auto asName = [](const auto& info) {
   constexpr std::array<const char*, 5> words = {"rotors", "rods", "spins", "off_line", "all"};
-  std::string text = std::get<0>(info.param) + "_" + words[static_cast<std::size_t>(std::get<1>(info.param))];
-  std::replace(text.begin(), text.end(), '-', '_');
-  return text;
+  return asTestName(std::get<0>(info.param)) + "_" + words[static_cast<std::size_t>(std::get<1>(info.param))];
 };
 
 INSTANTIATE_TEST_SUITE_P(Machines, AddedInertia,

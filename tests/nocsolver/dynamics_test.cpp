@@ -1,234 +1,190 @@
-// Inverse and direct dynamics by two formulations: the solver's, which never forms T, and (37) and (34) with the whole
-// T. The power balance, which does not need T, checks both.
+// Identities between the solver's results, on legs of all kinds. That these are those of the machine is shown against
+// tests/vectors by vectors_test.cpp.
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
-#include <array>
-#include <iostream>
+#include <Eigen/QR>
 
 #include "base/real50.h"
 #include "nocsolver/noc/noc.h"
-#include "tests/model/derivatives.h"
-#include "tests/nocsolver/newton_euler.h"
-#include "tests/nocsolver/rounding.h"
-#include "tests/support/motions.h"
+#include "tests/support/numbers.h"
 #include "tests/support/vectors.h"
 
 namespace ursula {
 namespace {
 
-/// Both formulations to the torques at one motion.
-template <class S>
-struct Engines {
-  Vector6<S> torques, assembled;
-  Matrix6<S> T_P, M_P, inertia;
-  NocWorkspace<S> work;
-  double relative_limit, torque_limit;  ///< N·m
-
-  template <class R = Corrected>
-  Engines(const Manipulator& manipulator, const Motion<S>& motion, R reading = R{}) {
-    const Noc<S, R> solver(manipulator, reading);
-    torques = solver.inverseDynamics(motion, work);
-    M_P = solver.massMatrixAtP(motion, work);
-    const Noc<S> right(manipulator);
-    BodyMotions<S> bodies;
-    right.inverseKinematics(motion, work);
-    right.jacobians(motion, work);
-    right.bodyMotions(motion, work, bodies);
-    right.twistShaping(motion, work);
-    const TwistShaping<S>& T = work.T;
-    T_P = right.platformShaping(work);
-    assembled = -T.transpose() * generalizedWrench(manipulator, bodies, right.rates(work));  // (37)
-    inertia = generalizedInertia(manipulator, bodies, T);
-    relative_limit = roundingLimit(right, work);
-    torque_limit = relative_limit * static_cast<double>(wrenchScale(manipulator, bodies, right.rates(work), T));
-  }
-
-  double torqueError() const { return static_cast<double>(S((torques - assembled).norm())); }
-};
-
-Vector6d twistRateOf(const Motion<double>& motion) {
-  Vector6d out;
-  out << motion.omega_dot, motion.p_ddot;
-  return out;
-}
-
 class Dynamics : public testing::TestWithParam<std::string> {
  protected:
-  Dynamics() {
-    ManipulatorParameters parameters = vectorScenario(GetParam()).manipulator->parameters();
-    for (Leg& leg : parameters.legs) {  // smoothed so much that it is not just the rate's sign
-      leg.coulomb.phi = 3, leg.coulomb.psi = 5, leg.coulomb.theta = 7;
-      leg.coulomb.smoothing_speed = 0.5;
-    }
-    with_coulomb_ = std::make_unique<const Manipulator>(parameters);
-  }
   Scenario scenario_ = vectorScenario(GetParam());
-  std::unique_ptr<const Manipulator> with_coulomb_;
-  SeededDraws dice_{11};
+  std::vector<VectorRow> rows_ = vectorRows(GetParam());
+  Vector6<Real50> load_ = Vector6<Real50>::Constant(100);
 };
 
-TEST_P(Dynamics, inverseIsTheProductWithTheAssembledT) {
-  double worst = 0;
-  for (int k = 0; k < 20; ++k) {
-    const Motion<double> motion = randomState(scenario_, dice_);
-    for (const Manipulator* manipulator : {scenario_.manipulator.get(), with_coulomb_.get()}) {
-      const Engines<double> engines(*manipulator, motion);
-      EXPECT_LE(engines.torqueError(), engines.torque_limit);
-      worst = std::max(worst, engines.torqueError() / engines.torques.norm());
-    }
-  }
-  std::cout << "relative to the torques, in doubles: " << worst << '\n';
-}
-
-TEST_P(Dynamics, inverseIsThatProductIn50DigitsToo) {
-  const auto trajectory = tumbling(scenario_, 5);  // its orientation is exact to 50 digits
-  const Engines<Real50> engines(*with_coulomb_, trajectory->at(Real50(0.3 * trajectory->duration())));
-  EXPECT_LE(engines.torqueError(), engines.torque_limit);
-  EXPECT_LE(engines.torque_limit, 1e-36) << "the limit has lost its meaning";
-}
-
-/// Controls: each omission makes a difference of more than a tenth of a newton metre.
-TEST_P(Dynamics, aTermLeftOutIsSeen) {
-  const Motion<double> motion = randomState(scenario_, dice_);
-  for (const FormulaError formula_error :
-       {FormulaError::eq16, FormulaError::eq17, FormulaError::eq23, FormulaError::eq43b_doubled, FormulaError::eq47,
-        FormulaError::drop_gyroscopic_legs, FormulaError::drop_platform_centripetal, FormulaError::drop_gravity_legs,
-        FormulaError::drop_gravity_platform, FormulaError::drop_friction}) {
-    const Engines<double> engines(*with_coulomb_, motion, WithFormulaErrors(formula_error));
-    EXPECT_GT(engines.torqueError(), 0.1) << "error " << static_cast<int>(formula_error);
-    EXPECT_GT(0.1, 1e3 * engines.torque_limit);
-  }
-}
-
-TEST_P(Dynamics, aLoadIsCarriedByTheTransposedJacobian) {
+/// D T = 0 with neither of them zero, and D t = 0: T is the complement of the joints' constraints.
+TEST_P(Dynamics, shapingIsTheComplementOfTheConstraints) {
   const Noc<double> solver(*scenario_.manipulator);
   NocWorkspace<double> work;
-  const Motion<double> motion = randomState(scenario_, dice_);
-  Vector6d load;
-  load << dice_.vector(300), dice_.vector(2000);
-  const Vector6d without = solver.inverseDynamics(motion, work);
-  const Vector6d change = solver.inverseDynamics(motion, work, load) - without;
-  const Vector6d expected = -solver.platformShaping(work).transpose() * load;
-  EXPECT_LE((change - expected).norm(), roundingLimit(solver, work) * (without.norm() + expected.norm()));
-  EXPECT_GT(expected.norm(), 1);
+
+  for (const VectorRow& row : rows_) {
+    const Motion<double> motion = rounded(row.motion);
+    solver.inverseDynamics(motion, work);
+    const TwistShaping<double>& T = work.T;
+    Eigen::MatrixXd D = solver.D(motion, work);
+    const auto violation = [&] { return (D * T).norm() / (D.norm() * T.norm()); };
+    EXPECT_LE(violation(), 1e-13);
+    EXPECT_GT(T.colwise().norm().minCoeff(), 1e-3);
+    EXPECT_EQ(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(D).rank(), 12 * solver.machine().legs_in_all);
+    EXPECT_EQ(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(T).rank(), motor_count);
+    for (Eigen::Index k = 0; k < D.rows(); ++k) {  // control: no row is satisfied by chance
+      const Eigen::VectorXd row_k = D.row(k);
+      D.row(k).setConstant(0.5);
+      ASSERT_GT(violation(), 1e-6) << "row " << k;
+      D.row(k) = row_k;
+    }
+  }
 }
 
-/// An error δτ of the torques causes an error of M_P⁻¹ T_P⁻ᵀ δτ in the accelerations.
+/// Direct dynamics undoes inverse dynamics, and ignores accelerations in the motion.
 TEST_P(Dynamics, directUndoesInverse) {
-  double worst = 0;
-  for (int k = 0; k < 20; ++k) {
-    const Motion<double> motion = randomState(scenario_, dice_);
-    Vector6d load;
-    load << dice_.vector(300), dice_.vector(2000);
-    const Noc<double> solver(*with_coulomb_);
-    NocWorkspace<double> work;
-    const Vector6d torques = solver.inverseDynamics(motion, work, load);
-    const Engines<double> engines(*with_coulomb_, motion);
-    Motion<double> unread = motion;
-    unread.omega_dot.setConstant(std::nan(""));  // it must ignore accelerations in the motion
-    unread.p_ddot.setConstant(std::nan(""));
-    const Vector6d found = solver.directDynamics(unread, torques, work, load);
-    const double error = (found - twistRateOf(motion)).norm();
-    const double response = (engines.M_P.inverse() * engines.T_P.inverse().transpose()).norm();
-    EXPECT_LE(error, response * (engines.torque_limit + engines.relative_limit * engines.T_P.norm() * load.norm()));
-    worst = std::max(worst, error / twistRateOf(motion).norm());
-    const Vector6d other = solver.directDynamics(unread, Vector6d(1.001 * torques), work, load);
-    EXPECT_GT((other - found).norm(), 1e-4);
-  }
-  std::cout << "direct(inverse), relative to the accelerations: " << worst << '\n';
-}
-
-TEST_P(Dynamics, massMatrixIsTheAssembledOneAtP) {
-  for (int k = 0; k < 10; ++k) {
-    const Engines<double> engines(*scenario_.manipulator, randomState(scenario_, dice_));
-    const Matrix6d projected = engines.T_P.transpose() * engines.M_P * engines.T_P;
-    const double scale = engines.M_P.norm() * engines.T_P.squaredNorm();
-    EXPECT_LE((projected - engines.inertia).norm(), engines.relative_limit * scale);
-    EXPECT_GT(engines.inertia.norm(), 1e6 * engines.relative_limit * scale) << "the limit has lost its meaning";
-    EXPECT_LE((engines.M_P - engines.M_P.transpose()).norm(), engines.relative_limit * engines.M_P.norm());
-    EXPECT_EQ(engines.M_P.llt().info(), Eigen::Success);
-    EXPECT_GT(engines.M_P.ldlt().vectorD().minCoeff(), 0);
-  }
-}
-
-/// Kinetic and potential energy of 13 bodies, J.
-Real50 energy(const Manipulator& manipulator, const BodyMotions<Real50>& bodies) {
-  Real50 sum = 0;
-  for (int b = 0; b < body_count; ++b) {
-    const Inertia<Real50> inertia = inertiaOf<Real50>(manipulator, b);
-    const BodyMotion<Real50>& body = bodies[static_cast<std::size_t>(b)];
-    const Vector3<Real50> spin = body.R.transpose() * body.twist.head<3>();
-    sum +=
-        (spin.dot(Vector3<Real50>(inertia.about_center * spin)) + inertia.mass * body.twist.tail<3>().squaredNorm()) /
-        2;
-    sum -= inertia.mass * manipulator.gravity().cast<Real50>().dot(body.c);
-  }
-  return sum;
-}
-
-Real50 dissipation(const Manipulator& manipulator, const JointVariables<Real50>& rates) {
-  Real50 sum = 0;
-  for (int i = 0; i < leg_count; ++i) {
-    const Leg& leg = manipulator.leg(i);
-    const double speed = leg.coulomb.smoothing_speed;
-    sum -= rates.phi(i) * frictionTorque(leg.friction.phi, leg.coulomb.phi, speed, rates.phi(i)) +
-           rates.psi(i) * frictionTorque(leg.friction.psi, leg.coulomb.psi, speed, rates.psi(i)) +
-           rates.theta(i) * frictionTorque(leg.friction.theta, leg.coulomb.theta, speed, rates.theta(i));
-  }
-  return sum;
-}
-
-/// τᵀφ̇ = d(energy)/dt + dissipation, the derivative by a central difference.
-TEST_P(Dynamics, powerOfTheTorquesBecomesEnergyAndHeat) {
-  const auto trajectory = tumbling(scenario_, 3);
-  const Noc<Real50> solver(*with_coulomb_);
+  const Noc<Real50> solver(*scenario_.manipulator);
   NocWorkspace<Real50> work;
-  const auto energyAt = [&](const Real50& t) {
+  for (const VectorRow& row : rows_) {
+    Vector6<Real50> efforts = solver.inverseDynamics(row.motion, work, load_), expected;
+    expected << row.motion.omega_dot, row.motion.p_ddot;
+    Motion<Real50> unread = row.motion;
+    unread.omega_dot.setConstant(Real50(nan)), unread.p_ddot.setConstant(Real50(nan));
+    const Vector6<Real50> found = solver.directDynamics(unread, efforts, work, load_);
+    EXPECT_LE(static_cast<double>(Real50((found - expected).norm() / expected.norm())), 1e-32);
+    efforts(3) *= Real50("1.000001");
+    EXPECT_GT(static_cast<double>((solver.directDynamics(unread, efforts, work, load_) - expected).norm()), 1e-12);
+  }
+}
+
+/// Compares T, Ṫ and the twist-shaping matrix with the motion.
+TEST_P(Dynamics, theJacobiansGiveTwistAndTwistRate) {
+  const Noc<Real50> solver(*scenario_.manipulator);
+  NocWorkspace<Real50> work;
+  for (const VectorRow& row : rows_) {
+    solver.inverseKinematics(row.motion, work);
+    solver.jacobians(row.motion, work);
+    const Motors& motors = scenario_.manipulator->motors();
+    const Vector6<Real50> rate = solver.rates(work).driven(motors),
+                          acceleration = solver.accelerations(work).driven(motors);
+    Vector6<Real50> twist, twist_rate;
+    twist << row.motion.omega, row.motion.p_dot;
+    twist_rate << row.motion.omega_dot, row.motion.p_ddot;
+    const Matrix6<Real50> T = solver.platformShaping(work), T_rate = solver.platformShapingRate(row.motion, work);
+    ASSERT_GT(twist.norm(), 0);
+    EXPECT_LE(static_cast<double>(Real50((T * rate - twist).norm())), 1e-20);
+    EXPECT_LE(static_cast<double>(Real50((T * acceleration + T_rate * rate - twist_rate).norm())), 1e-19);
     BodyMotions<Real50> bodies;
-    const Motion<Real50> motion = trajectory->at(t);
-    solver.inverseKinematics(motion, work);
-    solver.bodyMotions(motion, work, bodies);
-    return energy(*with_coulomb_, bodies);
+    solver.twistShapingRate(row.motion, work);
+    solver.bodyMotions(row.motion, work, bodies);
+    for (int b = 0; b < body_count; ++b) {  // (32a), (32b)
+      const BodyMotion<Real50>& body = bodies[static_cast<std::size_t>(b)];
+      const auto T_b = work.T.middleRows<6>(6 * b), T_b_rate = work.T_rate.middleRows<6>(6 * b);
+      EXPECT_LE(static_cast<double>(Real50((T_b * rate - body.twist).norm())), 1e-20);
+      EXPECT_LE(static_cast<double>(Real50((T_b * acceleration + T_b_rate * rate - body.twist_rate).norm())), 1e-19);
+    }
+  }
+}
+
+/// (34), (36) and w^N of (31) in 50 digits. I follows from the platform's mass matrix. I q̈ + C q̇ is inverse dynamics
+/// without gravity, friction and load. The constraint wrenches do no work.
+TEST_P(Dynamics, generalisedInertiaAndWrenchesAreThoseOfTheMotion) {
+  const Noc<Real50> solver(*scenario_.manipulator);
+  ManipulatorParameters bare = scenario_.manipulator->parameters();
+  bare.gravity.setZero();
+  for (Leg& leg : bare.legs)
+    leg.friction = {}, leg.coulomb.phi = leg.coulomb.psi = leg.coulomb.theta = leg.coulomb.d = 0;
+  const Noc<Real50> without{Manipulator(bare)};
+  NocWorkspace<Real50> work, other;
+  const auto near = [](const auto& a, const auto& b, double room) {
+    return static_cast<double>(Real50((a - b).norm())) <= room * static_cast<double>(Real50(b.norm()));
   };
-  for (const double instant : instantsInside(trajectory->duration(), 3)) {
-    const Real50 t(instant);
-    const Real50 rate = (energyAt(t + difference_step) - energyAt(t - difference_step)) / (2 * difference_step);
-    const Vector6<Real50> torques = solver.inverseDynamics(trajectory->at(t), work);
-    const Real50 power = torques.dot(solver.rates(work).phi), heat = dissipation(*with_coulomb_, solver.rates(work));
-    const double scale = static_cast<double>(Real50(torques.norm()));
-    EXPECT_LE(static_cast<double>(Real50(abs(power - rate - heat))), difference_tolerance * scale);
-    EXPECT_GT(static_cast<double>(Real50(abs(power - rate))), 1e-6 * scale) << "without its heat it must not balance";
+  for (const VectorRow& row : rows_) {
+    const Vector6<Real50> efforts = solver.inverseDynamics(row.motion, work, load_);
+    const Motors& motors = scenario_.manipulator->motors();
+    const Vector6<Real50> rate = solver.rates(work).driven(motors),
+                          acceleration = solver.accelerations(work).driven(motors);
+    const Matrix6<Real50> T_P = solver.platformShaping(work), M_P = solver.massMatrixAtP(row.motion, work);
+    solver.twistShapingRate(row.motion, work);
+    const Matrix6<Real50> I = solver.I(work), C = solver.C(work);
+    EXPECT_TRUE(near(I, Matrix6<Real50>(T_P.transpose() * M_P * T_P), 1e-40));
+    EXPECT_GT(Matrix6d(M_P.cast<double>()).ldlt().vectorD().minCoeff(), 0);
+    EXPECT_TRUE(near(Vector6<Real50>(I * acceleration + C * rate), without.inverseDynamics(row.motion, other), 1e-35));
+    EXPECT_FALSE(near(Vector6<Real50>(I * acceleration), without.inverseDynamics(row.motion, other), 1e-9));
+    const BodyVector<Real50> w_N = solver.constraintWrench(row.motion, efforts, work, load_);
+    const Real50 power = (work.T.transpose() * w_N).norm();
+    ASSERT_GT(w_N.norm(), 0);
+    EXPECT_LE(static_cast<double>(power), 1e-38 * static_cast<double>(Real50(w_N.norm() * work.T.norm())));
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Machines, Dynamics, testing::ValuesIn(vectorNames()),
-                         [](const auto& name) { return "of_" + std::string(1, name.param.back()); });
-
-/// The helix at t_f = 3 s, by position-level kinematics in 60 digits and d'Alembert's principle.
-TEST(PaperHelix, hasItsReferenceTorques) {
-  const std::array<std::pair<double, std::array<double, 6>>, 3> reference = {
-      {{0,
-        {1781.1709921149679, -1416.5553895461321, 2766.4777229186097, 110.36097275261635, -1189.076509881727,
-         -3764.9416079054001}},
-       {1.5,
-        {5370.8050099846401, -978.81424077574318, 7797.3749369532718, 3103.9762041999248, 2161.7809306438784,
-         -2331.7670319625501}},
-       {3,
-        {24593.499943682222, 6729.2515146115527, 25065.531685212988, 13373.873533911844, 15845.632576113775,
-         3305.8309418147462}}}};
-  const Scenario scenario = vectorScenario("paper-helix");
-  const Noc<double> solver(*scenario.manipulator);
+/// Each wrong term of section 3 shows in efforts, accelerations or D T, if the machine has the term.
+TEST_P(Dynamics, eachWrongTermOfSectionThreeShows) {
+  const Motion<double> motion = rounded(rows_[2].motion);
+  const Vector6d load = load_.cast<double>();
   NocWorkspace<double> work;
-  for (const auto& [t, values] : reference) {
-    const Vector6d expected = Eigen::Map<const Vector6d>(values.data());
-    const Vector6d torques = solver.inverseDynamics(scenario.trajectory->at(t), work);
-    const double error = (torques - expected).norm() / expected.norm();
-    std::cout << "t = " << t << " s: " << error << " of the reference torques\n";
-    EXPECT_LE(error, 1e-12);
+  const auto answers = [&](const FormulaError* formula_error) {
+    const Noc<double, WithFormulaErrors> solver(
+        *scenario_.manipulator, formula_error != nullptr ? WithFormulaErrors(*formula_error) : WithFormulaErrors());
+    Eigen::VectorXd out(24);
+    const Vector6d efforts = solver.inverseDynamics(motion, work, load);
+    const Eigen::MatrixXd DT = solver.D(motion, work) * work.T;
+    out << efforts, solver.directDynamics(motion, Vector6d::Zero(), work, load),
+        Vector6d::Constant(DT.norm() / work.T.norm()), solver.platformShapingRate(motion, work).rowwise().sum();
+    return out;
+  };
+  const Eigen::VectorXd right = answers(nullptr);
+  const Matrix3d& inertia = scenario_.manipulator->platform().inertia;
+  const bool is_round = inertia.isApprox(inertia(0, 0) * Matrix3d::Identity());  // the paper's is
+  for (const FormulaError formula_error : {FormulaError::drop_row_rates,
+                                           FormulaError::drop_own_column,
+                                           FormulaError::drop_passive_rates,
+                                           FormulaError::untwisted_tensors,
+                                           FormulaError::untwisted_platform,
+                                           FormulaError::mass_for_inertia,
+                                           FormulaError::drop_mass_distal,
+                                           FormulaError::drop_T_rate,
+                                           FormulaError::drop_W,
+                                           FormulaError::drop_tau_g,
+                                           FormulaError::drop_inertia,
+                                           FormulaError::drop_load,
+                                           FormulaError::scaled_first_effort,
+                                           FormulaError::scaled_efforts,
+                                           FormulaError::wrong_D,
+                                           FormulaError::drop_gyroscopic_legs,
+                                           FormulaError::drop_gyroscopic_platform,
+                                           FormulaError::drop_gravity_legs,
+                                           FormulaError::drop_gravity_platform,
+                                           FormulaError::eq47}) {
+    const bool of_platforms_axes =
+        formula_error == FormulaError::untwisted_platform || formula_error == FormulaError::drop_gyroscopic_platform;
+    if (of_platforms_axes && is_round) continue;
+    EXPECT_GT((answers(&formula_error) - right).norm(), 1e-9) << static_cast<int>(formula_error);
   }
 }
+
+/// Doubles differ from long doubles by rounding, but are not equal to the last bit.
+TEST_P(Dynamics, roundInDoubles) {
+  const Noc<double> solver(*scenario_.manipulator);
+  const Noc<long double> longer(*scenario_.manipulator);
+  NocWorkspace<double> work;
+  NocWorkspace<long double> long_work;
+  double largest = 0;
+  for (const VectorRow& row : rows_) {
+    const Motion<double> m = rounded(row.motion);
+    const Vector6d found = solver.inverseDynamics(m, work),
+                   exact = longer.inverseDynamics(castTo<long double>(m), long_work).cast<double>();
+    largest = std::max(largest, (found - exact).norm() / exact.norm());
+  }
+  EXPECT_GT(largest, 0);
+  EXPECT_LE(largest, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Dynamics, testing::ValuesIn(allNames()), byName);
 
 }  // namespace
 }  // namespace ursula

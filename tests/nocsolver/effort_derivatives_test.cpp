@@ -24,24 +24,6 @@ constexpr double promised = 1e-12;
 using ByState = Eigen::Matrix<double, 6, 18>;
 using Six = Vector6<Real50>;
 
-std::vector<std::string> allNames() {
-  std::vector<std::string> out = kindNames();
-  out.insert(out.end(), vectorNames().begin(), vectorNames().end());
-  return out;
-}
-
-Motion<Real50> exactly(const Motion<double>& from) {
-  Motion<Real50> to;
-  to.t = Real50(from.t);
-  to.p = from.p.cast<Real50>();
-  to.Q = from.Q.cast<Real50>();
-  to.omega = from.omega.cast<Real50>();
-  to.p_dot = from.p_dot.cast<Real50>();
-  to.omega_dot = from.omega_dot.cast<Real50>();
-  to.p_ddot = from.p_ddot.cast<Real50>();
-  return to;
-}
-
 /// exp(h [e_k]×)
 Matrix3<Real50> turn(int k, const Real50& h) {
   Matrix3<Real50> out = Matrix3<Real50>::Identity();
@@ -255,13 +237,7 @@ TEST_P(DerivativesOf, byParametersAreTheDifferencesInFiftyDigits) {
   EXPECT_GT(seen, static_cast<int>(numbers.size() / 2));
 }
 
-std::string testName(const testing::TestParamInfo<std::string>& name) {
-  std::string out = name.param;
-  std::replace(out.begin(), out.end(), '-', '_');
-  return out;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, DerivativesOf, testing::ValuesIn(allNames()), testName);
+INSTANTIATE_TEST_SUITE_P(All, DerivativesOf, testing::ValuesIn(allNames()), byName);
 
 }  // namespace
 }  // namespace ursula

@@ -26,12 +26,6 @@ namespace {
 
 constexpr double promised = 1e-12;
 
-std::vector<std::string> allNames() {
-  std::vector<std::string> out = kindNames();
-  out.insert(out.end(), vectorNames().begin(), vectorNames().end());
-  return out;
-}
-
 template <class V, class W>
 double distance(const V& found, const W& expected) {
   using S = typename V::Scalar;
@@ -262,14 +256,8 @@ TEST_P(BatchOf, flagsWhatSinglePosesRefuse) {
   }
 }
 
-std::string testName(const testing::TestParamInfo<std::string>& name) {
-  std::string out = name.param;
-  std::replace(out.begin(), out.end(), '-', '_');
-  return out;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, FastOf, testing::ValuesIn(allNames()), testName);
-INSTANTIATE_TEST_SUITE_P(All, BatchOf, testing::ValuesIn(allNames()), testName);
+INSTANTIATE_TEST_SUITE_P(All, FastOf, testing::ValuesIn(allNames()), byName);
+INSTANTIATE_TEST_SUITE_P(All, BatchOf, testing::ValuesIn(allNames()), byName);
 
 TEST(Batch, ofNothingDoesNothing) {
   const BatchDynamics batch(*vectorScenario("random-1").manipulator);

@@ -31,19 +31,6 @@ class NoAllocation : public testing::Test {};
 using Scalars = testing::Types<double, float, Real50>;
 TYPED_TEST_SUITE(NoAllocation, Scalars);
 
-template <class S>
-Motion<S> castTo(const Motion<Real50>& motion) {
-  Motion<S> out;
-  out.t = static_cast<S>(motion.t);
-  out.p = motion.p.cast<S>();
-  out.Q = motion.Q.cast<S>();
-  out.omega = motion.omega.cast<S>();
-  out.p_dot = motion.p_dot.cast<S>();
-  out.omega_dot = motion.omega_dot.cast<S>();
-  out.p_ddot = motion.p_ddot.cast<S>();
-  return out;
-}
-
 TYPED_TEST(NoAllocation, inAnyFunctionOfTheSolver) {
   using S = TypeParam;
   const Scenario scenario = vectorScenario("random-4");

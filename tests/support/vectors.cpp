@@ -1,5 +1,7 @@
 #include "tests/support/vectors.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -104,6 +106,12 @@ const std::vector<std::string>& kindNames() {
   return names;
 }
 
+std::vector<std::string> allNames() {
+  std::vector<std::string> out = kindNames();
+  out.insert(out.end(), vectorNames().begin(), vectorNames().end());
+  return out;
+}
+
 std::vector<VectorRow> vectorRows(const std::string& name) {
   std::ifstream file(std::string(URSULA_VECTORS) + "/" + name + ".csv");
   std::string line;
@@ -121,16 +129,17 @@ Scenario vectorScenario(const std::string& name) {
   return readScenario(folder + "/" + name + ".toml");
 }
 
-Motion<double> rounded(const Motion<Real50>& motion) {
-  Motion<double> out;
-  out.t = static_cast<double>(motion.t);
-  out.p = motion.p.cast<double>();
-  out.Q = motion.Q.cast<double>();
-  out.omega = motion.omega.cast<double>();
-  out.p_dot = motion.p_dot.cast<double>();
-  out.omega_dot = motion.omega_dot.cast<double>();
-  out.p_ddot = motion.p_ddot.cast<double>();
-  return out;
+Scenario scenarioOf(const std::string& name) {
+  const std::string file = std::string(URSULA_SCENARIOS) + "/" + name + ".toml";
+  return std::filesystem::exists(file) ? readScenario(file) : vectorScenario(name);
+}
+
+std::vector<std::string> shippedScenarios() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(URSULA_SCENARIOS))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 }  // namespace ursula

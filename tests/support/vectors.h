@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cctype>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ const std::vector<std::string>& vectorNames();
 /// Machines with legs of other kinds, mixtures, and several motors per leg: "kind-ups-1" …
 const std::vector<std::string>& kindNames();
 
+/// All of both.
+std::vector<std::string> allNames();
+
 /// The five instants of one of them, seven for other kinds. Throws std::runtime_error if the file contradicts its
 /// README.
 std::vector<VectorRow> vectorRows(const std::string& name);
@@ -30,7 +34,31 @@ std::vector<VectorRow> vectorRows(const std::string& name);
 /// Their scenario.
 Scenario vectorScenario(const std::string& name);
 
-/// The same motion rounded to doubles.
-Motion<double> rounded(const Motion<Real50>& motion);
+/// Returns scenarios/NAME.toml if it exists, else the machine of tests/vectors.
+Scenario scenarioOf(const std::string& name);
+
+/// The names of all shipped scenarios, in order.
+std::vector<std::string> shippedScenarios();
+
+/// The same motion in another scalar.
+template <class To, class From>
+Motion<To> castTo(const Motion<From>& motion) {
+  const auto cast = [](const auto& x) { return x.template cast<To>().eval(); };
+  return {static_cast<To>(motion.t), cast(motion.p),         cast(motion.Q),     cast(motion.omega),
+          cast(motion.p_dot),        cast(motion.omega_dot), cast(motion.p_ddot)};
+}
+
+inline Motion<double> rounded(const Motion<Real50>& motion) { return castTo<double>(motion); }
+inline Motion<Real50> exactly(const Motion<double>& motion) { return castTo<Real50>(motion); }
+
+/// "paper-helix" as a part of a test's name.
+inline std::string asTestName(std::string text) {
+  for (char& c : text)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  return text;
+}
+
+/// Names the instances of a test by their parameter, a text.
+inline const auto byName = [](const auto& info) { return asTestName(info.param); };
 
 }  // namespace ursula

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "tests/support/changed.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/evidence/reference.h"
@@ -15,12 +16,9 @@ namespace {
 
 /// The paper's machine and motion at z = `height`, which is b Δω̄.
 Scenario helixAt(double height) {
-  Scenario scenario = scenarioOf("paper-helix");
+  Scenario scenario = changed(scenarioOf("paper-helix"), ofEachLeg([&](Leg& leg) { leg.base_point.z() += height; }));
   scenario.text.clear();  // the scenario is no longer the file's
   scenario.simulation.samples = 61;
-  ManipulatorParameters machine = scenario.manipulator->parameters();
-  for (Leg& leg : machine.legs) leg.base_point.z() += height;
-  scenario.manipulator = std::make_shared<const Manipulator>(machine);
   HelixParameters helix;
   helix.radius = 0.2, helix.pitch = 1.2, helix.start_angle = -1.5707963267948966, helix.end_angle = -1.0471975511965976;
   helix.height_phase = 2.2 + height / helix.pitch;

@@ -13,6 +13,7 @@
 #include "base/real50.h"
 #include "nocsolver/noc/noc.h"
 #include "studies/random/random_scenario.h"
+#include "tests/support/changed.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/subject/frame_change.h"
 
@@ -83,19 +84,6 @@ TEST_P(Profile, measuresNoiseInEveryQuantity) {
   }
 }
 
-Motion<Real50> exactly(const Motion<double>& motion) {
-  Motion<Real50> same;
-  same.t = motion.t;
-  same.Q = motion.Q.cast<Real50>();
-  const std::pair<Vector3<Real50>*, const Vector3d*> parts[] = {{&same.p, &motion.p},
-                                                                {&same.omega, &motion.omega},
-                                                                {&same.p_dot, &motion.p_dot},
-                                                                {&same.omega_dot, &motion.omega_dot},
-                                                                {&same.p_ddot, &motion.p_ddot}};
-  for (const auto& [to, from] : parts) *to = from->cast<Real50>();
-  return same;
-}
-
 /// The NOC in doubles against itself in 50 digits: the true errors are below half of the limits.
 TEST_P(Profile, dominatesTheTrueErrorOfTheSolver) {
   const RoundingProfile profile(scenario_, instants);
@@ -152,11 +140,10 @@ TEST_P(Profile, limitsAreTheSameHoweverTheWorldIsTurned) {
 /// A machine that is wrong alike in every frame rounds like the right one, so a model error does not widen its own
 /// limit.
 TEST_P(Profile, knowsNothingOfAWrongModel) {
-  ManipulatorParameters machine = scenario_.manipulator->parameters();
-  machine.platform.mass *= 1.01;
-  machine.legs[2].base_axis += Vector3d(0.01, -0.02, 0.01);
-  Scenario wrong = scenario_;
-  wrong.manipulator = std::make_shared<const Manipulator>(machine);
+  const Scenario wrong = changed(scenario_, [](auto& machine) {
+    machine.platform.mass *= 1.01;
+    machine.legs[2].base_axis += Vector3d(0.01, -0.02, 0.01);
+  });
   const RoundingProfile a(scenario_, instants), b(wrong, instants);
   for (const Rounded quantity : quantities(a)) {
     const auto largest = [quantity](const RoundingProfile& of) {
@@ -171,7 +158,7 @@ TEST_P(Profile, knowsNothingOfAWrongModel) {
 INSTANTIATE_TEST_SUITE_P(Scenarios, Profile,
                          testing::Values("paper-helix", "near-singular", "millimetres", "proving-ground", "light-legs",
                                          "load-table"),
-                         [](const auto& name) { return asTestName(name.param); });
+                         byName);
 
 TEST(RandomProfiles, dominateTheNoiseSeenFromElsewhere) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed)
