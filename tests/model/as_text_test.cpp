@@ -2,6 +2,7 @@
 // validation sees no error of the reader, because every formulation gets the same wrong numbers.
 
 #include "tests/model/as_text.h"
+#include "tests/support/changed.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@
 #include "studies/random/random_scenario.h"
 #include "tests/base/temporary_folder.h"
 #include "tests/support/numbers.h"
-#include "tests/validation/scenario_files.h"
+#include "tests/support/vectors.h"
 #include "validation/subject/parameters.h"
 
 namespace ursula {
@@ -119,9 +120,7 @@ Scenario misreadByARounding(const Scenario& right, std::size_t k) {
   k %= parameters.size();
   while (!parameters[k].turns() && parameters[k].get(machine) == 0) k = (k + 1) % parameters.size();
   parameters[k].disturb(machine, 2e-15);
-  Scenario wrong = right;
-  wrong.manipulator = std::make_shared<const Manipulator>(machine);
-  return wrong;
+  return changed(right, [&](auto& wrong) { wrong = machine; });
 }
 
 class RandomAsText : public testing::TestWithParam<RandomKind> {};
@@ -161,11 +160,7 @@ TEST(Difference, isSeenInEveryParameterAndEveryNumberOfAHelix) {
 using Change = std::function<void(Scenario&)>;
 
 Change machine(const std::function<void(ManipulatorParameters&)>& change) {
-  return [change](Scenario& scenario) {
-    ManipulatorParameters wrong = scenario.manipulator->parameters();
-    change(wrong);
-    scenario.manipulator = std::make_shared<const Manipulator>(wrong);
-  };
+  return [change](Scenario& scenario) { scenario = changed(scenario, change); };
 }
 
 Change poses(const std::function<void(std::vector<TimedPose>&)>& change) {

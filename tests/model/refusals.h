@@ -7,6 +7,8 @@
 #include <tuple>
 
 #include "base/errors.h"
+#include "model/scenario.h"
+#include "tests/model/scenario_text.h"
 
 namespace ursula {
 
@@ -23,6 +25,14 @@ std::string refusal(Call&& call) {
   }
   ADD_FAILURE() << "nothing thrown";
   return "(nothing thrown)";
+}
+
+/// Returns the refusal of a scenario, without the file and place if the place is that of the '@' in the text.
+inline std::string refusalAtMark(const std::string& text, const std::string& file = "a.toml") {
+  const MarkedText changed = marked(text);
+  const std::string message = refusal<ScenarioError>([&] { parseScenario(changed.text, file); });
+  const std::string start = file + ":" + changed.place + ": error: ";
+  return message.compare(0, start.size(), start) == 0 ? message.substr(start.size()) : message;
 }
 
 /// Returns place, value and bound of the InvalidParameter that `call` throws.

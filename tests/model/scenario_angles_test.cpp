@@ -13,8 +13,6 @@
 namespace ursula {
 namespace {
 
-using testing::EndsWith;
-
 std::string hold(const std::string& orientation) {
   return good_scenario.substr(0, good_scenario.find("[trajectory]")) +
          "[trajectory]\nkind = \"hold\"\nposition = [0, 0, 1]\nduration = 1\n" + orientation + "\n";
@@ -56,17 +54,15 @@ TEST(ScenarioAngles, rollPitchAndYawTurnAboutFixedAxes) {
 }
 
 TEST(ScenarioAngles, bothFormsAreRefused) {
-  const auto refused = [](const std::string& text) {
-    return refusal<ScenarioError>([&] { parseScenario(text, "a.toml"); });
-  };
-  EXPECT_THAT(refused(good_scenario + "start_angle_deg = -90\n"),
-              EndsWith("trajectory.start_angle_deg: given beside 'start_angle', expected one of the two"));
-  EXPECT_THAT(refused(hold("orientation = [1, 0, 0, 0]\nrpy_deg = [0, 0, 0]")),
-              EndsWith("trajectory.rpy_deg: given beside 'orientation', expected one of the two"));
-  EXPECT_THAT(refused(hold("")), EndsWith("missing key 'orientation' in trajectory, expected an array of 4 numbers, or "
-                                          "'rpy_deg', an array of 3"));
-  EXPECT_THAT(refused(replaced(good_scenario, "end_angle = -1.0471975511965976", "")),
-              EndsWith("missing key 'end_angle' in trajectory, expected a number, rad, or 'end_angle_deg' in degrees"));
+  EXPECT_EQ(refusalAtMark(good_scenario + "start_angle_deg = @-90\n"),
+            "trajectory.start_angle_deg: given beside 'start_angle', expected one of the two");
+  EXPECT_EQ(refusalAtMark(hold("orientation = [1, 0, 0, 0]\nrpy_deg = @[0, 0, 0]")),
+            "trajectory.rpy_deg: given beside 'orientation', expected one of the two");
+  EXPECT_EQ(refusalAtMark(replaced(hold(""), "[trajectory]", "@[trajectory]")),
+            "missing key 'orientation' in trajectory, expected an array of 4 numbers, or 'rpy_deg', an array of 3");
+  const std::string no_end = replaced(good_scenario, "end_angle = -1.0471975511965976", "");
+  EXPECT_EQ(refusalAtMark(replaced(no_end, "[trajectory]", "@[trajectory]")),
+            "missing key 'end_angle' in trajectory, expected a number, rad, or 'end_angle_deg' in degrees");
 }
 
 }  // namespace

@@ -137,6 +137,20 @@ TEST(ScenarioKeys, haveTheTypesThatTheReaderTakes) {
   EXPECT_GE(tried, 50);
 }
 
+TEST(ScenarioKeys, haveNoOtherNames) {
+  int tried = 0;
+  for (const ScenarioTable& table : scenarioTables()) {
+    if (!isTried(table.name) || table.name == std::string("acceptance.torque")) continue;  // it names checks
+    const std::string said =
+        refusal<ScenarioError>([&] { parseScenario(withLine(table.name, "zz", "zz = 1"), "a.toml"); });
+    EXPECT_THAT(said, HasSubstr(": error: unknown key 'zz' in ")) << table.name;
+    for (const ScenarioKey& key : table.keys)
+      EXPECT_THAT(said.substr(said.find("expected ")), HasSubstr("'" + std::string(key.name) + "'")) << table.name;
+    ++tried;
+  }
+  EXPECT_GE(tried, 11);
+}
+
 /// All that a scenario's keys can change, as numbers.
 std::vector<double> numbersOf(const Scenario& scenario) {
   std::vector<double> out;

@@ -80,14 +80,6 @@ TEST(ScenarioTrajectory, refusesBadSamplesAtTheirLine) {
               EndsWith("pose.csv:5: error: time: 2, expected > 2, the time before"));
 }
 
-/// The refusal of a marked scenario, without file and place if they are those of the mark.
-std::string refusalAtMark(const std::string& text) {
-  const MarkedText changed = marked(text);
-  const std::string message = refusal<ScenarioError>([&] { parseScenario(changed.text, "nowhere/a.toml"); });
-  const std::string start = "nowhere/a.toml:" + changed.place + ": error: ";
-  return message.compare(0, start.size(), start) == 0 ? message.substr(start.size()) : message;
-}
-
 TEST(ScenarioTrajectory, refusesAKindThatIsNone) {
   EXPECT_EQ(refusalAtMark(replaced(good_scenario, "\"helix\"", "@\"helx\"")),
             "trajectory.kind: 'helx', expected 'helix', 'waypoints', 'samples' or 'hold', did you mean 'helix'?");
@@ -129,7 +121,7 @@ TEST(ScenarioTrajectory, refusesMissingAndMistypedKeys) {
             "trajectory.points: an integer, expected an array of tables");
   EXPECT_EQ(refusalAtMark(with("@[trajectory]\nkind = \"samples\"\n")),
             "missing key 'file' in trajectory, expected a string");
-  EXPECT_EQ(refusalAtMark(with("[trajectory]\nkind = \"samples\"\nfile = @\"none.csv\"\n")),
+  EXPECT_EQ(refusalAtMark(with("[trajectory]\nkind = \"samples\"\nfile = @\"none.csv\"\n"), "nowhere/a.toml"),
             "trajectory.file: 'nowhere/none.csv', expected a CSV file");
   EXPECT_EQ(refusalAtMark(with("@[trajectory]\nkind = \"hold\"\nposition = [0, 0, 1]\norientation = [1, 0, 0, 0]\n")),
             "missing key 'duration' in trajectory, expected a number");
