@@ -1,56 +1,42 @@
-#include "validation/causes/fits.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "validation/causes/fits.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
 namespace {
 
 /// Torques of another time, τ(t + dt), within the motion.
-class Shift {
- public:
-  Shift(const Scenario& scenario, const TorqueResidual& data)
-      : trajectory_(*scenario.trajectory), noc_(nocSubject(*scenario.manipulator, scenario.load)), data_(data) {}
-
-  struct Fit {
-    double unexplained = 1, slope = 0, beyond = 0;
-    bool covers = false;  ///< covers most of the samples
-  };
-
-  /// `slope` is the Gauss–Newton step of dt, s.
-  Fit at(double dt) const {
-    const double duration = trajectory_.duration(), step = 1e-6 * duration;
-    double left = 0, all = 0, along = 0, rate = 0, beyond = 0;
-    std::size_t used = 0;
-    for (std::size_t k = 0; k < data_.exact.size(); ++k) {
-      const double t = data_.motions[k].t + dt;
-      if (!(t - step >= 0 && t + step <= duration)) continue;
-      const Vector6d found = data_.found(k), shifted = torques(t);
-      const Vector6d slope = (torques(t + step) - torques(t - step)) / (2 * step);
-      left += (found - shifted).squaredNorm();
-      beyond = std::max(beyond, (found - shifted).cwiseAbs().cwiseQuotient(data_.limit[k]).maxCoeff());
-      all += data_.residual[k].squaredNorm();
-      along += slope.dot(found - shifted);
-      rate += slope.squaredNorm();
-      ++used;
-    }
-    Fit fit;
-    fit.covers = 4 * used >= 3 * data_.exact.size() && used >= 2 && all > 0 && rate > 0;
-    if (fit.covers) fit = {std::sqrt(left / all), along / rate, beyond, true};
-    return fit;
-  }
-
- private:
-  Vector6d torques(double t) const { return noc_.torques(trajectory_.at(t)); }
-
-  const Trajectory& trajectory_;
-  Subject noc_;
-  const TorqueResidual& data_;
+struct Shift {
+  double unexplained, step;  ///< `step` is the Gauss–Newton step of dt, s
+  double beyond;
 };
+
+/// Returns nullopt unless it covers most of the samples.
+std::optional<Shift> shiftBy(double dt, const Trajectory& trajectory, const Subject& noc, const TorqueResidual& data) {
+  const double duration = trajectory.duration(), step = 1e-6 * duration;
+  const auto torques = [&](double t) { return noc.torques(trajectory.at(t)); };
+  double left = 0, all = 0, along = 0, rate = 0, beyond = 0;
+  std::size_t used = 0;
+  for (std::size_t k = 0; k < data.exact.size(); ++k) {
+    const double t = data.motions[k].t + dt;
+    if (!(t - step >= 0 && t + step <= duration)) continue;
+    const Vector6d off = data.found(k) - torques(t);
+    const Vector6d slope = (torques(t + step) - torques(t - step)) / (2 * step);
+    left += off.squaredNorm();
+    beyond = std::max(beyond, off.cwiseAbs().cwiseQuotient(data.limit[k]).maxCoeff());
+    all += data.residual[k].squaredNorm();
+    along += slope.dot(off);
+    rate += slope.squaredNorm();
+    ++used;
+  }
+  const bool covers = 4 * used >= 3 * data.exact.size() && used >= 2 && all > 0 && rate > 0;
+  if (!covers) return std::nullopt;
+  return Shift{std::sqrt(left / all), along / rate, beyond};
+}
 
 /// ", 2 samples" if the shift is a whole number of them.
 std::string inSamples(const TorqueResidual& data, double shift) {
@@ -64,25 +50,24 @@ std::string inSamples(const TorqueResidual& data, double shift) {
 }  // namespace
 
 std::optional<Hypothesis> timeShift(const Scenario& scenario, const TorqueResidual& data) {
-  const double duration = scenario.trajectory->duration();
-  const Shift shift(scenario, data);
+  const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
+  const auto at = [&](double dt) { return shiftBy(dt, *scenario.trajectory, noc, data); };
   double best = 0, least = 1e300;
   for (int k = -20; k <= 20; ++k) {  // the steps below then start near the right shift
-    const double dt = k * 0.01 * duration;
-    const Shift::Fit fit = shift.at(dt);
-    if (fit.covers && fit.unexplained < least) best = dt, least = fit.unexplained;
+    const double dt = k * 0.01 * scenario.trajectory->duration();
+    const std::optional<Shift> shift = at(dt);
+    if (shift && shift->unexplained < least) best = dt, least = shift->unexplained;
   }
-  for (int k = 0; k < 8; ++k) {
-    const Shift::Fit fit = shift.at(best);
-    if (!fit.covers) return std::nullopt;
-    best += fit.slope;
+  std::optional<Shift> shift = at(best);
+  for (int k = 0; shift && k < 8; ++k) {
+    best += shift->step;
+    shift = at(best);
   }
-  const Shift::Fit fit = shift.at(best);
-  if (!fit.covers) return std::nullopt;
+  if (!shift) return std::nullopt;
   Hypothesis out{fmt::format("a time shift: the torques of {:.6g} ms {}{}", 1000 * std::abs(best),
                              best < 0 ? "before (late)" : "after (early)", inSamples(data, std::abs(best))),
-                 fit.unexplained, 1};
-  out.beyond = fit.beyond;
+                 shift->unexplained, 1};
+  out.beyond = shift->beyond;
   out.named = NamedCause{CauseKind::delay, "", "all", "", "s", 0, -best};
   return out;
 }
