@@ -7,7 +7,7 @@
 
 #include "model/scenario.h"
 #include "validation/causes/hypotheses.h"
-#include "validation/mistakes/cause.h"
+#include "validation/mistakes/tried_causes.h"
 
 // How causes are fitted: those of validation/mistakes/, and some with ways of their own.
 

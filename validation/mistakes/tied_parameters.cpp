@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/scalar.h"
-#include "validation/mistakes/cause.h"
+#include "validation/mistakes/tried_causes.h"
 
 namespace ursula {
 namespace {
