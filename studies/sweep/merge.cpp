@@ -78,7 +78,7 @@ constexpr const char* meets =
 
 /// Uses an absolute path, as Sqlite does.
 void attach(Sqlite& database, const std::filesystem::path& file) {
-  Statement(database, "ATTACH ? AS part").bind(0, std::filesystem::absolute(file).string()).run();
+  Statement(database, "ATTACH ? AS part").bind(std::filesystem::absolute(file).string()).run();
 }
 
 /// Throws if a point of `part` differs from that of `database`; changes nothing.

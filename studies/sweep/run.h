@@ -4,34 +4,16 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "studies/sweep/motion_extremes.h"
-#include "studies/sweep/sweep_database.h"
 #include "studies/sweep/sweep_plan.h"
-#include "validation/verdict/result.h"
+#include "studies/sweep/worker_pool.h"
 
 namespace ursula {
 
-/// Computes the row and the results of points of a plan. For one thread at a time; no answer depends on other points.
-class SweepWorker {
- public:
-  explicit SweepWorker(SweepPlan& plan) : plan_(plan) {}
-
-  /// Throws nothing: the point's verdict and error hold every problem.
-  SweepPoint at(std::int64_t i);
-
- private:
-  void inverse(std::int64_t i, SweepPoint& point);
-  void validate(std::int64_t i, SweepPoint& point);
-  ValidationResult pointwise(std::int64_t i);
-
-  SweepPlan& plan_;
-  MotionExtremes extremes_;
-  std::optional<std::vector<Check>> of_motion_;
-};
+/// Returns a function that computes points of a plan, for one thread at a time. No answer depends on other points. It
+/// throws nothing: the point's verdict and error hold every problem.
+PointWork workOn(SweepPlan& plan);
 
 /// A part of a sweep with consecutive points, so that merged parts stay in order.
 struct Shard {

@@ -165,18 +165,14 @@ std::int64_t within(Sqlite& database, std::int64_t first, std::int64_t end) {
   return database.number(fmt::format("SELECT count(*) FROM point WHERE id >= {} AND id < {}", first, end));
 }
 
-ShardStanding standingOf(const std::filesystem::path& file, const SweepIdentity& ours, std::int64_t points) {
-  ShardStanding out;
+ShardState stateOf(const std::filesystem::path& file, const SweepIdentity& ours, std::int64_t points) {
   try {
-    if (const auto database = opened(file, ours)) out.done = within(*database, 0, ours.points);
-    if (out.done == points)
-      out.state = ShardState::complete;
-    else if (std::filesystem::exists(file) && isWrittenTo(file))
-      out.state = ShardState::locked;
+    const auto database = opened(file, ours);
+    if (database && within(*database, 0, ours.points) == points) return ShardState::complete;
+    return std::filesystem::exists(file) && isWrittenTo(file) ? ShardState::locked : ShardState::missing;
   } catch (const DatabaseLocked&) {
-    out.state = ShardState::locked;
+    return ShardState::locked;
   }
-  return out;
 }
 
 }  // namespace
@@ -223,7 +219,7 @@ std::vector<QueuedTask> readQueue(const std::string& answer) {
 std::vector<int> SlurmStanding::in(ShardState state) const {
   std::vector<int> out;
   for (std::size_t k = 0; k < shards.size(); ++k)
-    if (shards[k].state == state) out.push_back(static_cast<int>(k) + 1);
+    if (shards[k] == state) out.push_back(static_cast<int>(k) + 1);
   return out;
 }
 
@@ -253,11 +249,11 @@ SlurmStanding standingOf(const SweepIdentity& sweep, const std::filesystem::path
     const Shard shard{k, shards};
     const std::int64_t first = shard.first(sweep.points), end = shard.end(sweep.points);
     if (queued.count(k) > 0)
-      out.shards.push_back({ShardState::queued, 0});
+      out.shards.push_back(ShardState::queued);
     else if (out.merged || (whole && within(*whole, first, end) == end - first))
-      out.shards.push_back({ShardState::complete, end - first});
+      out.shards.push_back(ShardState::complete);
     else
-      out.shards.push_back(standingOf(shardDatabase(database, shard), part, end - first));
+      out.shards.push_back(stateOf(shardDatabase(database, shard), part, end - first));
   }
   return out;
 }

@@ -66,14 +66,9 @@ enum class ShardState {
   complete,  ///< in its own or in the final database
 };
 
-struct ShardStanding {
-  ShardState state = ShardState::missing;
-  std::int64_t done = 0;  ///< number of existing points; not counted for queued shards
-};
-
 /// The progress of a sweep on the cluster.
 struct SlurmStanding {
-  std::vector<ShardStanding> shards;            ///< starting with shard 1
+  std::vector<ShardState> shards;               ///< starting with shard 1
   std::vector<std::int64_t> arrays, merges;     ///< jobs still in the queue
   bool merged = false;                          ///< all points are in the final database
   std::vector<int> in(ShardState state) const;  ///< numbers of these shards, from 1

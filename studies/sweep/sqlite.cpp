@@ -15,18 +15,8 @@ namespace {
 constexpr int patience = 5000;  // ms
 /// Steps of SQLite's virtual machine between two polls: some microseconds.
 constexpr int steps_between = 100;
-
-int flagsOf(Sqlite::Access access) {
-  switch (access) {
-    case Sqlite::Access::read:
-      return SQLITE_OPEN_READONLY;
-    case Sqlite::Access::write:
-      return SQLITE_OPEN_READWRITE;
-    case Sqlite::Access::create:
-      return SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
-  }
-  throw std::logic_error("no such access");
-}
+/// By Sqlite::Access.
+constexpr int flags[] = {SQLITE_OPEN_READONLY, SQLITE_OPEN_READWRITE, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE};
 
 /// The last error of the system. SQLite reports it for a connection, but not at the end of a transaction; then its
 /// files have it.
@@ -81,7 +71,8 @@ Sqlite::Sqlite(const std::filesystem::path& file, Access access) : file_(file) {
     throw DatabaseError(fmt::format("{}: error: is not a regular file, expected a database", file.string()));
   // An absolute path, because SQLite gives names such as ":memory:" and "file:…" a special meaning.
   const std::string path = std::filesystem::absolute(file).string();
-  const int status = sqlite3_open_v2(path.c_str(), &handle_, flagsOf(access) | SQLITE_OPEN_NOMUTEX, nullptr);
+  const int status =
+      sqlite3_open_v2(path.c_str(), &handle_, flags[static_cast<int>(access)] | SQLITE_OPEN_NOMUTEX, nullptr);
   if (status == SQLITE_OK) {
     sqlite3_extended_result_codes(handle_, 0);
     sqlite3_busy_timeout(handle_, patience);
@@ -98,10 +89,10 @@ Sqlite::~Sqlite() {
   sqlite3_close(handle_);
 }
 
-void Sqlite::fail(const std::string& doing) const {
+void Sqlite::fail() const {
   const int code = sqlite3_errcode(handle_) & 0xff;
-  const std::string what = fmt::format("{}: error: {}{}", file_.string(), doing.empty() ? "" : doing + ": ",
-                                       inWords(code, sqlite3_errmsg(handle_), systemError(handle_)));
+  const std::string what =
+      fmt::format("{}: error: {}", file_.string(), inWords(code, sqlite3_errmsg(handle_), systemError(handle_)));
   if (code == SQLITE_BUSY || code == SQLITE_LOCKED) throw DatabaseLocked(what);
   if (code == SQLITE_INTERRUPT) throw DatabaseStopped(what);
   throw DatabaseError(what);
@@ -115,7 +106,7 @@ void Sqlite::stopWhen(std::function<bool()> stop) {
 }
 
 void Sqlite::run(const std::string& sql) {
-  if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail("");
+  if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail();
 }
 
 std::int64_t Sqlite::number(const std::string& sql) {
@@ -136,36 +127,26 @@ bool Sqlite::hasMoved() const {
 std::int64_t Sqlite::changed() const { return sqlite3_changes64(handle_); }
 
 Statement::Statement(Sqlite& database, const std::string& sql) : database_(database) {
-  if (sqlite3_prepare_v2(database.handle_, sql.c_str(), -1, &handle_, nullptr) != SQLITE_OK) database.fail("");
+  if (sqlite3_prepare_v2(database.handle_, sql.c_str(), -1, &handle_, nullptr) != SQLITE_OK) database.fail();
 }
 
 Statement::~Statement() { sqlite3_finalize(handle_); }
 
-Statement& Statement::bind(int k, std::int64_t value) {
-  sqlite3_bind_int64(handle_, k + 1, value);
-  return *this;
-}
+void Statement::put(int k, std::int64_t value) { sqlite3_bind_int64(handle_, k, value); }
+void Statement::put(int k, double value) { sqlite3_bind_double(handle_, k, value); }
 
-Statement& Statement::bind(int k, double value) {
-  sqlite3_bind_double(handle_, k + 1, value);
-  return *this;
-}
-
-Statement& Statement::bind(int k, std::string_view value) {
-  sqlite3_bind_text64(handle_, k + 1, value.data(), value.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
-  return *this;
-}
-
-Statement& Statement::bindNull(int k) {
-  sqlite3_bind_null(handle_, k + 1);
-  return *this;
+void Statement::put(int k, const std::optional<std::string_view>& value) {
+  if (value)
+    sqlite3_bind_text64(handle_, k, value->data(), value->size(), SQLITE_TRANSIENT, SQLITE_UTF8);
+  else
+    sqlite3_bind_null(handle_, k);
 }
 
 bool Statement::step() {
   const int status = sqlite3_step(handle_);
   if (status == SQLITE_ROW) return true;
   sqlite3_reset(handle_);
-  if (status != SQLITE_DONE) database_.fail("");
+  if (status != SQLITE_DONE) database_.fail();
   return false;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -48,16 +49,17 @@ class Sqlite {
   /// Returns the number of rows that the last statement changed.
   std::int64_t changed() const;
   const std::filesystem::path& file() const { return file_; }
-  [[noreturn]] void fail(const std::string& doing) const;
 
  private:
   friend class Statement;
+  [[noreturn]] void fail() const;
+
   std::filesystem::path file_;
   sqlite3* handle_ = nullptr;
   std::function<bool()> stop_;
 };
 
-/// A prepared statement. Parameters and columns count from 0.
+/// A prepared statement. Columns count from 0.
 class Statement {
  public:
   Statement(Sqlite& database, const std::string& sql);
@@ -65,10 +67,13 @@ class Statement {
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
 
-  Statement& bind(int k, std::int64_t value);
-  Statement& bind(int k, double value);  ///< NaN becomes NULL
-  Statement& bind(int k, std::string_view value);
-  Statement& bindNull(int k);
+  /// Binds all parameters: integers, numbers and texts. NaN and a text that is not there become NULL.
+  template <class... Values>
+  Statement& bind(const Values&... values) {
+    int k = 0;
+    (put(++k, values), ...);
+    return *this;
+  }
 
   /// Returns whether there is a row. After the last one, or after reset(), the statement can run again.
   bool step();
@@ -80,8 +85,23 @@ class Statement {
   std::int64_t integer(int k) const;
   double real(int k) const;  ///< NULL becomes NaN
   std::string text(int k) const;
+  /// Sets values to the first columns.
+  template <class... Values>
+  void read(Values&... values) const {
+    int k = 0;
+    (get(k++, values), ...);
+  }
 
  private:
+  void put(int k, std::int64_t value);
+  void put(int k, int value) { put(k, std::int64_t{value}); }
+  void put(int k, double value);
+  void put(int k, const std::optional<std::string_view>& value);
+  void get(int k, std::int64_t& value) const { value = integer(k); }
+  void get(int k, double& value) const { value = real(k); }
+  void get(int k, bool& value) const { value = integer(k) != 0; }
+  void get(int k, std::string& value) const { value = text(k); }
+
   Sqlite& database_;
   sqlite3_stmt* handle_ = nullptr;
 };

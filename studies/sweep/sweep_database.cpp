@@ -32,20 +32,11 @@ CREATE TABLE result(point INTEGER NOT NULL, name TEXT NOT NULL, value REAL, "lim
 void create(Sqlite& database, const SweepIdentity& identity) {
   database.run(tables);
   database.run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", application, layout));
-  Statement insert(database, "INSERT INTO sweep VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?)");
-  int k = 0;
-  for (const std::string* text : {&identity.text, &identity.hash, &identity.version, &identity.file, &identity.scenario,
-                                  &identity.name, &identity.what, &identity.design})
-    insert.bind(k++, *text);
-  for (const std::int64_t number : {std::int64_t{identity.pointwise ? 1 : 0}, identity.points,
-                                    std::int64_t{identity.shard}, std::int64_t{identity.shards}})
-    insert.bind(k++, number);
-  insert.bind(k, nlohmann::json(identity.keys).dump()).run();
-}
-
-/// Sets up writing; throws DatabaseLocked if another process is writing.
-void prepareToWrite(Sqlite& database) {
-  database.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4000");
+  const SweepIdentity& i = identity;
+  Statement(database, "INSERT INTO sweep VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?)")
+      .bind(i.text, i.hash, i.version, i.file, i.scenario, i.name, i.what, i.design, int{i.pointwise}, i.points,
+            i.shard, i.shards, nlohmann::json(i.keys).dump())
+      .run();
 }
 
 /// Our tables must be as create() made them, without triggers: a view instead of a table, or a trigger, may never end.
@@ -91,11 +82,11 @@ void requireSound(Sqlite& database, const SweepIdentity& sweep) {
   Statement odd(database,
                 "SELECT min(id) FROM point WHERE id < 0 OR id >= ? OR verdict NOT IN ('pass', 'fail', 'inconclusive', "
                 "'out_of_reach', 'singular', 'error')");
-  odd.bind(0, sweep.points).step();
+  odd.bind(sweep.points).step();
   if (!odd.isNull(0))
     refuse(database.file(), fmt::format("is damaged: point {} is none of this sweep", odd.integer(0)));
   Statement foreign(database, "SELECT point FROM result WHERE point < 0 OR point >= ? LIMIT 1");
-  if (foreign.bind(0, sweep.points).step())
+  if (foreign.bind(sweep.points).step())
     refuse(database.file(),
            fmt::format("is damaged: it has results of point {}, which is none of this sweep", foreign.integer(0)));
   for (const auto& [sql, what] : {std::pair(odd_points, "point {} is not as a sweep writes it"),
@@ -137,16 +128,15 @@ SweepIdentity readIdentity(Sqlite& database) {
       "FROM sweep");
   if (!row.step()) refuse(database.file(), "is damaged: it does not say of which sweep it is");
   SweepIdentity out;
-  int k = 0;
-  for (std::string* text :
-       {&out.text, &out.hash, &out.version, &out.file, &out.scenario, &out.name, &out.what, &out.design})
-    *text = row.text(k++);
-  out.pointwise = row.integer(k++) != 0;
-  out.points = row.integer(k++);
-  for (int* count : {&out.shard, &out.shards})  // a count beyond int is refused like one that is too large
-    *count = static_cast<int>(std::clamp<std::int64_t>(row.integer(k++), 0, most_shards + 1));
+  std::int64_t shard = 0, shards = 0;
+  std::string keys;
+  row.read(out.text, out.hash, out.version, out.file, out.scenario, out.name, out.what, out.design, out.pointwise,
+           out.points, shard, shards, keys);
+  // A count beyond int is refused like one that is too large.
+  out.shard = static_cast<int>(std::clamp<std::int64_t>(shard, 0, most_shards + 1));
+  out.shards = static_cast<int>(std::clamp<std::int64_t>(shards, 0, most_shards + 1));
   try {
-    out.keys = nlohmann::json::parse(row.text(k)).get<std::vector<std::string>>();
+    out.keys = nlohmann::json::parse(keys).get<std::vector<std::string>>();
   } catch (const nlohmann::json::exception&) {
     refuse(database.file(), "is damaged: it does not say what varies");
   }
@@ -164,11 +154,12 @@ struct SweepDatabase::Statements {
 };
 
 SweepDatabase::SweepDatabase(const std::filesystem::path& file, const SweepIdentity& identity)
-    : folders_(folderFor(file)), sqlite_(file, Sqlite::Access::create), identity_(identity) {
+    : folders_(folderFor(file)), sqlite_(file, Sqlite::Access::create) {
   // Checks before any change, because it may be a foreign database.
   const bool was_empty = isEmpty(sqlite_);
   if (!was_empty) requireSame(file, readIdentity(sqlite_), identity);
-  prepareToWrite(sqlite_);
+  // Throws DatabaseLocked if another process is writing.
+  sqlite_.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4000");
   sqlite_.run("BEGIN IMMEDIATE");
   // Checks again under the lock, because another sweep may have come first.
   if (isEmpty(sqlite_))
@@ -179,18 +170,13 @@ SweepDatabase::SweepDatabase(const std::filesystem::path& file, const SweepIdent
   commit();
 }
 
-SweepDatabase::SweepDatabase(const std::filesystem::path& file)
-    : sqlite_(file, Sqlite::Access::read), identity_(readIdentity(sqlite_)) {
-  statements_ = std::make_unique<Statements>(sqlite_);
-}
-
 SweepDatabase::~SweepDatabase() = default;
 
 std::int64_t SweepDatabase::pointsDone() { return sqlite_.number("SELECT count(*) FROM point"); }
 
 std::int64_t SweepDatabase::firstDone(std::int64_t from, std::int64_t end) {
   Statement& first = statements_->first;
-  first.bind(0, from).bind(1, end).step();
+  first.bind(from, end).step();
   const std::int64_t found = first.isNull(0) ? end : first.integer(0);
   first.reset();
   return found;
@@ -202,17 +188,13 @@ void SweepDatabase::dropErrors() {
 }
 
 void SweepDatabase::add(const SweepPoint& point) {
-  Statement& into = statements_->point;
-  into.bind(0, point.id).bind(1, point.parameters).bind(2, point.verdict).bind(3, point.seconds);
-  point.error.empty() ? into.bindNull(4) : into.bind(4, point.error);
-  into.run();
-  statements_->stale.bind(0, point.id).run();  // removes results of a point that somebody removed manually
-  Statement& result = statements_->result;
-  for (const SweepValue& value : point.values) {
-    result.bind(0, point.id).bind(1, value.name).bind(2, value.value).bind(3, value.limit);
-    value.verdict.empty() ? result.bindNull(4) : result.bind(4, value.verdict);
-    result.run();
-  }
+  const auto unlessEmpty = [](const std::string& text) {
+    return text.empty() ? std::nullopt : std::optional<std::string_view>(text);
+  };
+  statements_->point.bind(point.id, point.parameters, point.verdict, point.seconds, unlessEmpty(point.error)).run();
+  statements_->stale.bind(point.id).run();  // removes results of a point that somebody removed manually
+  for (const SweepValue& value : point.values)
+    statements_->result.bind(point.id, value.name, value.value, value.limit, unlessEmpty(value.verdict)).run();
 }
 
 /// A transaction is always open, so nobody else can write between two of ours.
@@ -242,13 +224,10 @@ void SweepDatabase::finish() {
     sqlite_.run("PRAGMA journal_mode = DELETE");
   } catch (const DatabaseLocked&) {  // a reader keeps the database in this mode, which is as good
   }
-  requireSoundFile();
-}
-
-/// The file may differ from this connection's memory, because another program may have truncated its log.
-void SweepDatabase::requireSoundFile() {
+  // The file may differ from this connection's memory, because another program may have truncated its log.
   try {
-    SweepDatabase(sqlite_.file());
+    Sqlite written(sqlite_.file(), Sqlite::Access::read);
+    readIdentity(written);
   } catch (const DatabaseError& error) {
     throw DatabaseError(
         fmt::format("{}; another program has changed it, or its -wal, while it was written", error.what()));

@@ -48,18 +48,15 @@ struct SweepPoint {
   std::vector<SweepValue> values;
 };
 
-/// Points and results of a sweep. Writes are atomic in batches, however the program ends. Throws DatabaseError if the
-/// file is no such database, is damaged, comes from a newer program, or is being written by another process.
+/// Writes points and results of a sweep. Writes are atomic in batches, however the program ends. Throws DatabaseError
+/// if the file is no such database, is damaged, comes from a newer program, or is being written by another process.
 class SweepDatabase {
  public:
   /// Opens or creates the database of `identity`, with missing folders. Refuses one of another sweep, shard or program
   /// version.
   SweepDatabase(const std::filesystem::path& file, const SweepIdentity& identity);
-  /// Opens for reading.
-  explicit SweepDatabase(const std::filesystem::path& file);
   ~SweepDatabase();
 
-  const SweepIdentity& identity() const { return identity_; }
   std::int64_t pointsDone();
   /// Returns the smallest existing id in [from, end); `end` if there is none.
   std::int64_t firstDone(std::int64_t from, std::int64_t end);
@@ -78,11 +75,9 @@ class SweepDatabase {
  private:
   struct Statements;
   void requireInPlace();
-  void requireSoundFile();
 
   FreshPaths folders_;
   Sqlite sqlite_;
-  SweepIdentity identity_;
   std::unique_ptr<Statements> statements_;
 };
 

@@ -13,11 +13,7 @@ namespace {
 
 constexpr int most_values = 1'000'000;
 
-const ScenarioTable& keysOf(const char* table) {
-  for (const ScenarioTable& each : sweepTables())
-    if (each.name == std::string(table)) return each;
-  throw std::logic_error("no such table of a sweep");
-}
+const ScenarioTable& keysOfDocument() { return sweepTables()[0]; }
 
 std::vector<double> numbers(const TomlSection& table, const std::string& key) {
   const toml::array* array = table.table().get(key)->as_array();
@@ -89,7 +85,7 @@ Variation variationOf(const TomlSection& table) {
 }
 
 Vary varyOf(const TomlSection& table, SweepDesign design) {
-  table.allowOnly(keysOf("vary"));
+  table.allowOnly(sweepTables()[1]);
   Vary out;
   table.require("key", out.key);
   out.place = placeAt(table.file(), table.table().get("key")->source().begin);
@@ -101,7 +97,7 @@ Vary varyOf(const TomlSection& table, SweepDesign design) {
 
 /// toml++ has 64-bit integers, TomlSection 32-bit ones.
 std::int64_t integerOf(const TomlSection& table, const char* key) {
-  const ScenarioKey& about = keysOf("").key(key);
+  const ScenarioKey& about = keysOfDocument().key(key);
   const toml::node* node = table.table().get(key);
   if (!node->is_integer()) table.fail(key, fmt::format("expected {}", about.bound.words));
   const std::int64_t value = node->as_integer()->get();
@@ -111,7 +107,7 @@ std::int64_t integerOf(const TomlSection& table, const char* key) {
 }
 
 void readDesign(const TomlSection& document, SweepFile& sweep) {
-  const auto design = document.readChoice(keysOf("").key("design"));
+  const auto design = document.readChoice(keysOfDocument().key("design"));
   if (!design) document.missing("design", "'grid', 'random' or 'sobol'");
   sweep.design = static_cast<SweepDesign>(*design);
   const bool counts = sweep.design != SweepDesign::grid;
@@ -119,7 +115,7 @@ void readDesign(const TomlSection& document, SweepFile& sweep) {
     if (!counts && document.has(key))
       document.fail(key, "a grid has none, expected it with design 'random' or 'sobol'");
   if (!counts) return;
-  if (!document.has("count")) document.missing("count", keysOf("").key("count").bound.words);
+  if (!document.has("count")) document.missing("count", keysOfDocument().key("count").bound.words);
   sweep.count = integerOf(document, "count");
   if (document.has("seed")) sweep.seed = static_cast<std::uint64_t>(integerOf(document, "seed"));
 }
@@ -139,7 +135,7 @@ void readWord(const TomlSection& table, const char* key, std::string& value) {
 }
 
 SlurmSettings slurmOf(const TomlSection& table) {
-  table.allowOnly(keysOf("slurm"));
+  table.allowOnly(sweepTables()[2]);
   SlurmSettings out;
   readWord(table, "partition", out.partition);
   readWord(table, "time", out.time);
@@ -156,7 +152,7 @@ SweepFile assemble(const TomlSection& document, const std::filesystem::path& fil
   if (document.has("manipulator") && !document.has("scenario"))
     document.fail("manipulator", fmt::format("a scenario, expected a sweep, which names one: scenario = \"{}\"",
                                              file.filename().string()));
-  document.allowOnly(keysOf(""));
+  document.allowOnly(keysOfDocument());
   SweepFile sweep;
   sweep.file = file;
   std::string scenario;
@@ -167,7 +163,7 @@ SweepFile assemble(const TomlSection& document, const std::filesystem::path& fil
     document.fail("scenario", refusal.what());
   }
   sweep.scenario = file.parent_path() / scenario;
-  if (const auto work = document.readChoice(keysOf("").key("what"))) sweep.work = static_cast<SweepWork>(*work);
+  if (const auto work = document.readChoice(keysOfDocument().key("what"))) sweep.work = static_cast<SweepWork>(*work);
   sweep.pointwise = readFlag(document, "pointwise");
   if (sweep.pointwise && sweep.work != SweepWork::validate) document.fail("pointwise", "expected what = 'validate'");
   readDesign(document, sweep);

@@ -23,21 +23,6 @@ std::string bytesOf(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// Everything that determines a sweep's rows, to the last bit.
-class Meaning {
- public:
-  void add(std::string_view text) {
-    said_ += fmt::format("{}:", text.size());
-    said_ += text;
-  }
-  void add(double value) { add(fmt::format("{:a}", value)); }
-
-  std::string hash() const { return sha1(said_); }
-
- private:
-  std::string said_;
-};
-
 }  // namespace
 
 struct SweepPlan::Document {
@@ -154,20 +139,21 @@ SweepIdentity SweepPlan::identity() const {
   out.design = ursula::name(file_.design);
   out.pointwise = file_.pointwise;
   out.points = points_.count();
-  Meaning meaning;
+  Sha1 meaning;  // of everything that determines a sweep's rows, to the last bit
+  const auto add = [&meaning](const std::string& text) { meaning.add(fmt::format("{}:{}", text.size(), text)); };
+  const auto addNumber = [&add](double value) { add(fmt::format("{:a}", value)); };
   for (const std::string& text :
        {out.what, out.design, out.scenario,
         fmt::format("{} {} {} {}", out.points, file_.seed, file_.pointwise, file_.samples.value_or(0))})
-    meaning.add(text);
-  for (const std::filesystem::path& file : document_->files) meaning.add(bytesOf(file));
+    add(text);
+  for (const std::filesystem::path& file : document_->files) add(bytesOf(file));
   for (const VariedNumber& number : points_.numbers()) {
     out.keys.push_back(number.key);
-    meaning.add(number.key);
-    meaning.add(static_cast<double>(number.by.kind));
-    for (const double value : {number.by.a, number.by.b}) meaning.add(value);
-    for (const double value : number.by.values) meaning.add(value);
+    add(number.key);
+    for (const double value : {static_cast<double>(number.by.kind), number.by.a, number.by.b}) addNumber(value);
+    for (const double value : number.by.values) addNumber(value);
   }
-  out.hash = meaning.hash();
+  out.hash = meaning.digits();
   return out;
 }
 

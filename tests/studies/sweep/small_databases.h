@@ -37,4 +37,11 @@ inline std::string rowsOf(const std::filesystem::path& file) {
   return out;
 }
 
+/// The number of points of a sound database.
+inline std::int64_t pointsIn(const std::filesystem::path& file) {
+  Sqlite database(file, Sqlite::Access::read);
+  readIdentity(database);
+  return database.number("SELECT count(*) FROM point");
+}
+
 }  // namespace ursula::test

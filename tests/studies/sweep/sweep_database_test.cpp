@@ -20,6 +20,7 @@ namespace {
 
 using test::identity;
 using test::point;
+using test::pointsIn;
 using testing::HasSubstr;
 
 std::string refused(const std::filesystem::path& file, const SweepIdentity& whose = identity()) {
@@ -61,7 +62,7 @@ TEST(SweepDatabase, refusesToGoOnWithoutItsFile) {
         const auto go_on = [&] { at_the_end ? database.finish() : database.commit(); };
         EXPECT_THAT(refusal<DatabaseError>(go_on), HasSubstr(says)) << at_the_end;
       }
-      EXPECT_EQ(SweepDatabase(kept).pointsDone(), 1) << comes << at_the_end;
+      EXPECT_EQ(pointsIn(kept), 1) << comes << at_the_end;
       EXPECT_EQ(*comes == '\0' ? "" : TemporaryFolder::read(file), comes) << at_the_end;
     }
 }
@@ -133,8 +134,7 @@ TEST(SweepDatabase, refusesThoseOfOthersAndLeavesThemAsTheyAre) {
   Sqlite(foreign, Sqlite::Access::create).run("CREATE TABLE x(y); INSERT INTO x VALUES(1)");
   EXPECT_THAT(refused(foreign), HasSubstr("is not a database of a sweep"));
   const std::filesystem::path empty = folder.write("empty.db", "");
-  EXPECT_THAT(refusal<DatabaseError>([&] { SweepDatabase database(empty); }),
-              HasSubstr("is empty: no sweep has begun"));
+  EXPECT_THAT(refusal<DatabaseError>([&] { pointsIn(empty); }), HasSubstr("is empty: no sweep has begun"));
   EXPECT_EQ(Sqlite(foreign, Sqlite::Access::read).number("SELECT y FROM x"), 1);
   const std::filesystem::path text = folder.write("text.db", "this is a text, and long enough that it is one\n");
   EXPECT_THAT(refused(text), HasSubstr("not an SQLite database"));
@@ -146,7 +146,7 @@ TEST(SweepDatabase, makesItsFolders) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "a" / "b" / "s.db";
   SweepDatabase(file, identity()).finish();
-  EXPECT_EQ(SweepDatabase(file).pointsDone(), 0);
+  EXPECT_EQ(pointsIn(file), 0);
 }
 
 TEST(SweepDatabase, refusesTablesThatAreNoneOfOursBeforeTheyAreRead) {
@@ -172,7 +172,7 @@ TEST(SweepDatabase, refusesTablesThatAreNoneOfOursBeforeTheyAreRead) {
   std::filesystem::remove(file);
   SweepDatabase(file, identity()).finish();
   Sqlite(file, Sqlite::Access::write).run(own);
-  EXPECT_EQ(SweepDatabase(file).pointsDone(), 0) << "what somebody adds for queries of his own is left alone";
+  EXPECT_EQ(pointsIn(file), 0) << "what somebody adds for queries of his own is left alone";
 }
 
 /// SQLite accepts text in a column of numbers, and returns it as 0.
@@ -230,7 +230,7 @@ TEST(SweepDatabase, isWrittenByOneAtATime) {
   const std::filesystem::path file = folder.path() / "s.db";
   SweepDatabase one(file, identity());
   EXPECT_THAT(refused(file), HasSubstr("another program has locked it"));
-  EXPECT_EQ(SweepDatabase(file).pointsDone(), 0) << "but anybody may read it";
+  EXPECT_EQ(pointsIn(file), 0) << "but anybody may read it";
 }
 
 /// Another sweep creates the database after this one found it empty.
@@ -252,7 +252,8 @@ TEST(SweepDatabase, isOfTheSweepThatWroteFirst) {
             "INSERT INTO sweep SELECT * FROM made.sweep; PRAGMA application_id = 1970434933; "
             "PRAGMA user_version = 1; COMMIT");
   EXPECT_THAT(says.get(), HasSubstr("of another sweep, s.toml"));
-  EXPECT_EQ(SweepDatabase(file).identity().hash, "bb");
+  Sqlite written(file, Sqlite::Access::read);
+  EXPECT_EQ(readIdentity(written).hash, "bb");
 }
 
 }  // namespace

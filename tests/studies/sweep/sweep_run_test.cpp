@@ -29,10 +29,10 @@ const std::string around = "design = \"random\"\ncount = 60\nsamples = 21\n" +
 /// The expected values come from the paper's equations, pose by pose.
 TEST(SweepWorker, findsTheLargestEffortsAndTheWorstPose) {
   SweepPlan plan = planOf("inverse", around);
-  SweepWorker worker(plan);
+  const PointWork make = workOn(plan);
   int judged = 0;
   for (std::int64_t i = 0; i < 60; ++i) {
-    const SweepPoint point = worker.at(i);
+    const SweepPoint point = make(i);
     if (point.verdict != "pass") continue;
     ++judged;
     const Scenario scenario = parseScenario(plan.text(i), "point.toml");
@@ -67,10 +67,10 @@ TEST(SweepWorker, findsTheLargestEffortsAndTheWorstPose) {
 
 TEST(SweepWorker, outOfReachIsAResultAndANumberThatNoMachineHasAnError) {
   SweepPlan plan = planOf("inverse", around);
-  SweepWorker worker(plan);
+  const PointWork make = workOn(plan);
   int unreachable = 0;
   for (std::int64_t i = 0; i < 60; ++i) {
-    const SweepPoint point = worker.at(i);
+    const SweepPoint point = make(i);
     if (point.verdict != "out_of_reach") continue;
     ++unreachable;
     const auto found = valuesOf(point);
@@ -84,13 +84,13 @@ TEST(SweepWorker, outOfReachIsAResultAndANumberThatNoMachineHasAnError) {
     SweepPlan negative =
         planOf(what, "design = \"grid\"\nsamples = 5\n" + vary("platform.mass", "values = [-5, 500, -5]"));
     for (const std::int64_t i : {0, 2}) {  // the first point is treated as any other
-      const SweepPoint point = SweepWorker(negative).at(i);
+      const SweepPoint point = workOn(negative)(i);
       EXPECT_EQ(point.verdict, "error");
       EXPECT_THAT(point.error, testing::HasSubstr("manipulator.platform.mass: -5, expected > 0"));
       EXPECT_THAT(point.error, testing::StartsWith("point " + std::to_string(i) + " of sweep.toml:"));
       EXPECT_TRUE(point.values.empty());
     }
-    EXPECT_EQ(SweepWorker(negative).at(1).verdict, "pass");
+    EXPECT_EQ(workOn(negative)(1).verdict, "pass");
   }
 }
 
@@ -99,7 +99,7 @@ TEST(SweepWorker, validatesAsTheProgramDoes) {
   SweepPlan whole = planOf("validate", "design = \"random\"\ncount = 3\nsamples = 11\n" +
                                            vary("platform.mass", "uniform = [400.0, 600.0]") +
                                            vary("trajectory.duration", "values = [0.3]"));
-  const SweepPoint point = SweepWorker(whole).at(2);
+  const SweepPoint point = workOn(whole)(2);
   const ValidationResult result = validate(parseScenario(whole.text(2), "point.toml"));
   const auto found = valuesOf(point);
   EXPECT_EQ(point.verdict, name(result.verdict));
@@ -118,7 +118,7 @@ TEST(SweepWorker, pointwiseHasTheValuesOfTheWholeAndFailsWrongMachines) {
   const std::string rest = "design = \"random\"\ncount = 3\nsamples = 11\npointwise = true\n" +
                            vary("platform.mass", "uniform = [400.0, 600.0]");
   SweepPlan plan = planOf("validate", rest);
-  const SweepPoint point = SweepWorker(plan).at(1);
+  const SweepPoint point = workOn(plan)(1);
   EXPECT_EQ(point.verdict, "pass");
   const auto found = valuesOf(point);
   const ValidationResult result = validate(parseScenario(plan.text(1), "point.toml"));
@@ -137,7 +137,7 @@ TEST(SweepWorker, pointwiseHasTheValuesOfTheWholeAndFailsWrongMachines) {
   strict.scenario =
       folder.write("strict.toml", TemporaryFolder::read(helix_file) + "\n[acceptance]\n\"torque.pointwise\" = 1e-30\n");
   SweepPlan never(strict);
-  EXPECT_EQ(SweepWorker(never).at(1).verdict, "fail");
+  EXPECT_EQ(workOn(never)(1).verdict, "fail");
 }
 
 std::string rowsOf(const std::filesystem::path& file) {
@@ -197,9 +197,9 @@ TEST(SweepRun, makesErrorsAgainWhereItIsAsked) {
   EXPECT_EQ(done(true), 1);
   Sqlite(file, Sqlite::Access::write).run("DELETE FROM point WHERE id = 0");  // removed manually, without its results
   EXPECT_EQ(done(false), 1);
-  SweepDatabase database(file);
-  EXPECT_EQ(database.pointsDone(), 3);
-  EXPECT_EQ(database.sqlite().number("SELECT count(*) FROM result WHERE point = 0"), 14);
+  Sqlite database(file, Sqlite::Access::read);
+  EXPECT_EQ(database.number("SELECT count(*) FROM point"), 3);
+  EXPECT_EQ(database.number("SELECT count(*) FROM result WHERE point = 0"), 14);
 }
 
 /// Each kind has its own names of margins.
@@ -213,7 +213,7 @@ TEST(SweepWorker, namesTheMarginsOfEveryKind) {
                                       "\"\nwhat = \"inverse\"\ndesign = \"random\"\ncount = 1\nsamples = 5\n" +
                                       vary("platform.mass", "relative = 0.1"),
                                   "sweep.toml"));
-    const auto found = valuesOf(SweepWorker(plan).at(0));
+    const auto found = valuesOf(workOn(plan)(0));
     ASSERT_EQ(found.count("kappa_B"), 1u) << file;
     for (const char* each : {"sin_theta", "cos_theta", "sin_psi", "leg_margin"})
       EXPECT_EQ(found.count(each), each == std::string(name) ? 1u : 0u) << file << each;

@@ -22,7 +22,7 @@ std::map<std::int64_t, SweepPoint> run(int workers, std::int64_t count, std::int
                                        const std::function<SweepPoint(std::int64_t)>& work) {
   std::map<std::int64_t, SweepPoint> out;
   std::int64_t next = 0;
-  WorkerPool::Tasks tasks;
+  WorkerTasks tasks;
   tasks.next = [&] {
     const std::int64_t from = next;
     next = std::min(count, next + handful);
@@ -34,7 +34,7 @@ std::map<std::int64_t, SweepPoint> run(int workers, std::int64_t count, std::int
     EXPECT_TRUE(out.emplace(point.id, point).second) << "twice: " << point.id;
   };
   tasks.stop = [] { return false; };
-  EXPECT_TRUE(WorkerPool(workers, tasks).run());
+  EXPECT_TRUE(runWorkers(workers, tasks));
   return out;
 }
 
@@ -79,7 +79,7 @@ TEST(WorkerPool, whatCrashesOnceHasItsResult) {
 }
 
 TEST(WorkerPool, stopsWhenAskedTo) {
-  WorkerPool::Tasks tasks;
+  WorkerTasks tasks;
   std::int64_t next = 0;
   int done = 0;
   tasks.next = [&] { return PointRange{next, next + 1}; };
@@ -87,7 +87,7 @@ TEST(WorkerPool, stopsWhenAskedTo) {
   tasks.parameters = [](std::int64_t) { return ""; };
   tasks.done = [&](const SweepPoint&) { ++next, ++done; };
   tasks.stop = [&] { return done >= 5; };
-  EXPECT_FALSE(WorkerPool(2, tasks).run());
+  EXPECT_FALSE(runWorkers(2, tasks));
   EXPECT_GE(done, 5);
 }
 
@@ -95,19 +95,19 @@ TEST(Wire, carriesWholePointsFromPieces) {
   SweepPoint sent = answer(-3);
   sent.error = std::string("text with \0 and \n", 17);
   const std::string bytes = packed(sent) + packed(answer(8));
-  Unpacker unpacker;
-  SweepPoint got;
-  std::vector<std::int64_t> ids;
+  std::string arrived;
+  std::vector<SweepPoint> got;
   for (const char byte : bytes) {
-    unpacker.add({&byte, 1});
-    while (unpacker.next(got)) {
-      ids.push_back(got.id);
-      EXPECT_EQ(got.error, ids.size() == 1 ? sent.error : "");
-    }
+    arrived += byte;
+    for (const SweepPoint& point : takePoints(arrived)) got.push_back(point);
   }
-  EXPECT_EQ(ids, (std::vector<std::int64_t>{-3, 8}));
-  EXPECT_EQ(got.values[0].name, "square");
-  EXPECT_EQ(got.values[0].value, 64);
+  ASSERT_EQ(got.size(), 2u);
+  EXPECT_EQ(got[0].id, -3);
+  EXPECT_EQ(got[1].id, 8);
+  EXPECT_EQ(got[0].error, sent.error);
+  EXPECT_EQ(got[1].error, "");
+  EXPECT_EQ(got[1].values[0].name, "square");
+  EXPECT_EQ(got[1].values[0].value, 64);
 }
 
 }  // namespace
