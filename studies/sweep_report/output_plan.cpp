@@ -52,19 +52,14 @@ OutputPlan::OutputPlan(bool validates, const std::vector<std::string>& names)
     place_[k] = outputs_.size();
     outputs_.push_back(single[k]);
   }
-  SweepOutput not_passed;
-  not_passed.kind = OutputKind::not_passed;
-  outputs_.push_back(not_passed);
+  outputs_.push_back({OutputKind::not_passed});
 }
 
 std::size_t OutputPlan::groupOf(OutputKind kind, const std::string& unit) {
   const auto at = std::find_if(outputs_.begin(), outputs_.end(),
                                [&](const SweepOutput& each) { return each.kind == kind && each.unit == unit; });
   if (at != outputs_.end()) return static_cast<std::size_t>(at - outputs_.begin());
-  SweepOutput group;
-  group.kind = kind;
-  group.unit = unit;
-  outputs_.push_back(group);
+  outputs_.push_back({kind, "", unit});
   return outputs_.size() - 1;
 }
 

@@ -174,38 +174,31 @@ double indexBound(std::size_t count, std::size_t classes, double alpha, bool cor
 
 namespace {
 
-struct Pair {
-  std::size_t parameter, output;
-  double strength;
-};
-
 /// Whether a scatter plot of the output says something: one with two values does not, and each check has its own plot.
 bool saysMore(OutputKind kind) { return kind != OutputKind::not_passed && kind != OutputKind::largest_share; }
-
-/// The primary output's pairs first, the strongest first.
-std::vector<Pair> sortedPairs(const SweepSummary& summary) {
-  std::vector<Pair> pairs;
-  for (std::size_t k = 0; k < summary.outputs.size(); ++k)
-    for (std::size_t p = 0; p < summary.parameters.size(); ++p)
-      if (const double s = strength(summary.outputs[k].relations[p]); s > 0 && saysMore(summary.outputs[k].kind))
-        pairs.push_back({p, k, s});
-  std::stable_sort(pairs.begin(), pairs.end(), [&summary](const Pair& a, const Pair& b) {
-    const bool first_a = a.output == summary.primary, first_b = b.output == summary.primary;
-    return first_a != first_b ? first_a : a.strength > b.strength;
-  });
-  return pairs;
-}
 
 }  // namespace
 
 std::vector<Scatter> pairsToDraw(const SweepSummary& summary, std::size_t most) {
+  const auto strengthOf = [&summary](const Scatter& pair) {
+    return strength(summary.outputs[pair.output].relations[pair.parameter]);
+  };
+  std::vector<Scatter> pairs;
+  for (std::size_t k = 0; k < summary.outputs.size(); ++k)
+    for (std::size_t p = 0; p < summary.parameters.size(); ++p)
+      if (const Scatter pair{p, k, {}, {}}; strengthOf(pair) > 0 && saysMore(summary.outputs[k].kind))
+        pairs.push_back(pair);
+  std::stable_sort(pairs.begin(), pairs.end(), [&](const Scatter& a, const Scatter& b) {
+    const bool first_a = a.output == summary.primary, first_b = b.output == summary.primary;
+    return first_a != first_b ? first_a : strengthOf(a) > strengthOf(b);
+  });
   std::vector<std::size_t> of_parameter(summary.parameters.size()), of_output(summary.outputs.size());
   std::vector<Scatter> out;
-  for (const Pair& pair : sortedPairs(summary)) {
+  for (const Scatter& pair : pairs) {
     const std::size_t outputs = pair.output == summary.primary ? 2 : 1;
     if (of_output[pair.output] >= outputs || of_parameter[pair.parameter] >= 2) continue;
     ++of_output[pair.output], ++of_parameter[pair.parameter];
-    out.push_back({pair.parameter, pair.output, {}, {}});
+    out.push_back(pair);
     if (out.size() == most) break;
   }
   return out;

@@ -8,7 +8,6 @@
 
 #include "report/html_template.h"
 #include "studies/sweep_report/sweep_outputs.h"
-#include "studies/sweep_report/sweep_words.h"
 
 namespace ursula {
 

@@ -4,7 +4,6 @@
 
 #include "report/page.h"
 #include "report/text.h"
-#include "studies/sweep_report/sweep_words.h"
 
 namespace ursula {
 namespace {

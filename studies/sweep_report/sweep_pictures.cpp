@@ -9,7 +9,6 @@
 #include "report/plots.h"
 #include "report/quantity.h"
 #include "report/text.h"
-#include "studies/sweep_report/sweep_words.h"
 
 namespace ursula {
 namespace {

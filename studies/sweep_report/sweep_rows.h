@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "studies/sweep/sqlite.h"
@@ -28,20 +28,16 @@ class ColumnStore {
   static constexpr std::size_t default_in_memory = 6'000'000;
 
  private:
-  struct Chunk {
-    std::vector<double> held;  ///< empty if it is in the file
-    std::int64_t place = 0;
-    std::size_t count = 0;
+  struct Column {
+    std::vector<double> recent;                                 ///< the last numbers
+    std::vector<std::pair<std::int64_t, std::size_t>> earlier;  ///< places in the file, and counts
   };
 
-  void keep(std::size_t column, const double* values, std::size_t count);
+  void count(std::size_t numbers);
 
-  std::size_t left_in_memory_;
-  std::size_t rows_ = 0, width_;
-  std::vector<std::vector<double>> pending_;  ///< rows of an incomplete chunk
-  std::vector<std::vector<Chunk>> chunks_;
+  std::size_t in_memory_, recent_ = 0, rows_ = 0, width_;
+  std::vector<Column> columns_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{nullptr, &std::fclose};
-  std::int64_t end_ = 0;  ///< end of the file
 };
 
 /// One point with its results, as in the database.
@@ -68,26 +64,12 @@ class SweepRows {
   bool next(SweepRow& row);
 
  private:
-  /// A read transaction.
-  class Snapshot {
-   public:
-    explicit Snapshot(Sqlite& database) : database_(database) { database_.run("BEGIN"); }
-    ~Snapshot();
-    Snapshot(const Snapshot&) = delete;
-    Snapshot& operator=(const Snapshot&) = delete;
-
-   private:
-    Sqlite& database_;
-  };
-
   void readParameters(SweepRow& row) const;
-  std::size_t indexOf(const std::string& name, std::size_t guess) const;
+  std::size_t indexOf(const std::string& name) const;
 
-  Sqlite& database_;
   const std::vector<std::string>& keys_;
-  Snapshot snapshot_;  ///< outlives the statements
+  std::shared_ptr<Sqlite> snapshot_;  ///< a read transaction, which outlives the statements
   std::vector<std::string> names_;
-  std::unordered_map<std::string, std::size_t> places_;
   Statement points_, results_;
   bool has_result_;
 };

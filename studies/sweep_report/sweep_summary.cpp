@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "studies/sweep_report/sweep_outputs.h"
 #include "studies/sweep_report/sweep_rows.h"
@@ -51,7 +52,6 @@ class Summary {
   void read() {
     SweepRow row;
     std::vector<double> values, both;
-    WorstPoints worst;
     std::vector<double> extremes(plan_.outputs().size(), std::numeric_limits<double>::quiet_NaN());
     worst_ids_.assign(extremes.size(), -1);
     while (rows_.next(row)) {
@@ -65,14 +65,29 @@ class Summary {
         const double size = plan_.outputs()[k].kind == OutputKind::sine ? -values[k] : values[k];
         if (std::isfinite(size) && !(extremes[k] >= size)) extremes[k] = size, worst_ids_[k] = row.id;
       }
-      WorstPoint point{row.id, row.verdict, row.error, {}, scoreOf(values), 0};
-      if (!worst.takes(point)) continue;
-      point.parameters = row.parameters;
-      point.because = plan_.largestOf(values);
-      worst.add(std::move(point));
+      keepWorst({row.id, row.verdict, row.error, row.parameters, scoreOf(values), plan_.largestOf(values)});
     }
     out_.points_done = static_cast<std::int64_t>(store_.rows());
-    out_.worst = worst.worst();
+  }
+
+  /// Keeps the points to look at first: at most three errors with different texts, then failures, then the largest
+  /// scores; ties by id.
+  void keepWorst(const WorstPoint& point) {
+    constexpr std::ptrdiff_t most_errors = 3;
+    const auto isError = [](const WorstPoint& each) { return each.verdict == "error"; };
+    const auto place = [&isError](const WorstPoint& each) {
+      const double score =
+          isError(each) || std::isnan(each.score) ? -std::numeric_limits<double>::infinity() : each.score;
+      return std::tuple(!isError(each), each.verdict != "fail", -score, each.id);
+    };
+    std::vector<WorstPoint>& worst = out_.worst;
+    const auto says = [&](const WorstPoint& each) { return isError(each) && each.error == point.error; };
+    if (isError(point) && (std::count_if(worst.begin(), worst.end(), isError) == most_errors ||
+                           std::any_of(worst.begin(), worst.end(), says)))
+      return;
+    const auto isWorse = [&](const WorstPoint& a, const WorstPoint& b) { return place(a) < place(b); };
+    worst.insert(std::upper_bound(worst.begin(), worst.end(), point, isWorse), point);
+    if (worst.size() > most_worst) worst.pop_back();
   }
 
   double scoreOf(const std::vector<double>& values) const {

@@ -28,13 +28,13 @@ enum class NoIndex { none, too_few, grid_not_complete, constant };
 
 struct SweepOutput {
   OutputKind kind = OutputKind::other;
-  std::string name;  ///< the result's name; empty for a combination
-  std::string unit;  ///< as in columns
-  int motor = -1;    ///< 0-based, for an effort
-  Spread spread;
-  Histogram histogram;
-  std::int64_t worst_point = -1;    ///< id of the largest value; for a sine, of the smallest
-  std::vector<Relation> relations;  ///< one per parameter
+  std::string name = {};  ///< the result's name; empty for a combination
+  std::string unit = {};  ///< as in columns
+  int motor = -1;         ///< 0-based, for an effort
+  Spread spread = {};
+  Histogram histogram = {};
+  std::int64_t worst_point = -1;         ///< id of the largest value; for a sine, of the smallest
+  std::vector<Relation> relations = {};  ///< one per parameter
   NoIndex no_index = NoIndex::none;
 };
 

@@ -9,7 +9,6 @@
 #include "report/html_template.h"
 #include "report/quantity.h"
 #include "report/sections.h"
-#include "studies/sweep_report/sweep_words.h"
 
 namespace ursula {
 

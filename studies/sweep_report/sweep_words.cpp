@@ -1,5 +1,3 @@
-#include "studies/sweep_report/sweep_words.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "model/check_catalogue.h"
 #include "report/quantity.h"
 #include "report/text.h"
+#include "studies/sweep_report/sweep_outputs.h"
 
 namespace ursula {
 namespace {
@@ -47,10 +46,6 @@ std::string countsOf(const SweepSummary& summary) {
     if (at != summary.verdicts.end())
       out += fmt::format("{}{} {}", out.empty() ? "" : ", ", grouped(at->second), words);
   }
-  for (const auto& [verdict, count] : summary.verdicts)
-    if (std::none_of(verdict_words.begin(), verdict_words.end(),
-                     [&v = verdict](const auto& each) { return v == each[0]; }))
-      out += fmt::format("{}{} {}", out.empty() ? "" : ", ", grouped(count), verdict);
   return points + ": " + out;
 }
 
