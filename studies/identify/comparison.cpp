@@ -8,7 +8,6 @@
 
 #include "base/csv.h"
 #include "base/text.h"
-#include "studies/identify/log_columns.h"
 #include "validation/subject/subject.h"
 
 namespace ursula::identification {
@@ -144,10 +143,6 @@ double ModelledLog::coarseDelay(double most) const {
   return static_cast<double>(motor_count * rows.size()) * std::log(at_once / best) > as_good ? found : 0;
 }
 
-void ModelledLog::compare(double delay, Comparison& out) const {
-  out.measured = filtered_.settledEfforts(delay)(out.kept, Eigen::all);
-}
-
 Comparison ModelledLog::directions() const {
   Comparison out;
   out.segments = filtered_.settledSegments();
@@ -156,7 +151,7 @@ Comparison ModelledLog::directions() const {
   out.t.resize(out.model.rows());
   for (Eigen::Index i = 0; i < out.t.size(); ++i) out.t(i) = filtered_.time(filtered_.settled()[i]);
   out.slopes = slopes();
-  const Eigen::MatrixXd taken = filtered_.takenOut();
+  const Eigen::MatrixXd taken = filtered_.lowPass(filtered_.taken());
   for (Eigen::Index i = 0; i < out.t.size(); ++i) out.model.row(i) += taken.row(i) * out.slopes[i].transpose();
   out.kept = steadyRows(out.slopes);
   addLinear(out);
@@ -249,10 +244,8 @@ void ModelledLog::addLinear(Comparison& out) const {
   out.linear = static_cast<Eigen::Index>(derivatives.regressorNames().size());
   const Eigen::VectorXd values = derivatives.regressorValues();
   for (Eigen::Index j = 0; j < out.linear; ++j) {
-    Direction direction;
-    direction.path = direction.words = derivatives.regressorNames()[j];
-    direction.nominal = values(j);
-    out.directions.push_back(direction);
+    const std::string& path = derivatives.regressorNames()[j];
+    out.directions.push_back({DirectionKind::linear, path, path, "", -1, values(j)});
   }
   Eigen::MatrixXd series(filtered_.size(), motor_count * out.linear);
   for (Eigen::Index i = 0; i < series.rows(); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -64,8 +65,6 @@ class ModelledLog {
   /// resolution is a step of the filter; |delay| <= `most`.
   double coarseDelay(double most) const;
 
-  /// Sets the measured efforts for a delay of `delay` s. The directions stay, because they do not depend on it.
-  void compare(double delay, Comparison& out) const;
   /// Makes all directions. This is slow.
   Comparison directions() const;
 
@@ -98,5 +97,8 @@ class ModelledLog {
 
 /// Returns the machine with a positive rotor inertia on every driven coordinate, however small.
 ManipulatorParameters withRotors(ManipulatorParameters machine);
+
+/// Returns 0 for the inertia of a rotor that the scenario lacks.
+inline double stated(double nominal) { return std::abs(nominal) < 1e-300 ? 0 : nominal; }
 
 }  // namespace ursula::identification

@@ -41,14 +41,8 @@ void ModelledLog::addNumbers(Comparison& out) const {
     if (number.group == "friction" && nominal.legs[number.leg].coulomb.any() == false) continue;
     ManipulatorParameters changed = nominal;
     number.set(changed, value + step);
-    Direction direction;
-    direction.kind = DirectionKind::number;
-    direction.path = number.path;
-    direction.words = number.words;
-    direction.unit = number.unit;
-    direction.nominal = value;
-    direction.plausible = 0.01 * size;
-    add(out, direction, (effortsOf(Manipulator(changed)) - unchanged) / step);
+    add(out, {DirectionKind::number, number.path, number.words, number.unit, -1, value, 0.01 * size},
+        (effortsOf(Manipulator(changed)) - unchanged) / step);
   }
 }
 

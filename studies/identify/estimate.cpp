@@ -22,17 +22,20 @@ Eigen::MatrixXd tableOf(const Comparison& comparison, int k) {
   return out;
 }
 
-/// Returns the solution and the residual of a least-squares fit of the last column by the first `count`, and sets the
-/// rank.
-std::pair<Eigen::VectorXd, Eigen::VectorXd> leastSquares(const Eigen::MatrixXd& rows, Eigen::Index count,
-                                                         Eigen::Index& rank) {
-  Eigen::VectorXd scale = rows.leftCols(count).colwise().norm().transpose();
+/// Returns factors that make each column's norm 1.
+Eigen::VectorXd columnScales(const Eigen::MatrixXd& x) {
+  Eigen::VectorXd scale = x.colwise().norm().transpose();
   for (double& each : scale) each = each > 0 ? 1 / each : 0;
+  return scale;
+}
+
+/// Returns the least-squares fit of the last column by the first `count`, and sets the rank.
+Eigen::VectorXd leastSquares(const Eigen::MatrixXd& rows, Eigen::Index count, Eigen::Index& rank) {
+  const Eigen::VectorXd scale = columnScales(rows.leftCols(count));
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.leftCols(count) * scale.asDiagonal());
   qr.setThreshold(1e-7);
   rank = qr.rank();
-  const Eigen::VectorXd y = rows.rightCols<1>(), x = qr.solve(y);
-  return {scale.asDiagonal() * x, y - rows.leftCols(count) * (scale.asDiagonal() * x)};
+  return scale.asDiagonal() * qr.solve(rows.rightCols<1>());
 }
 
 /// Merges the motors' tables, six rows for each instant.
@@ -69,7 +72,7 @@ Whitened whiten(const Comparison& comparison, EffortNoise noise) {
   out.expected = noise.variances().colwise().mean().transpose().cwiseSqrt();
   for (int pass = 0; pass < 3; ++pass) {
     out.rows = noise.whitened(rows);
-    const Eigen::VectorXd x = leastSquares(out.rows, fitted, out.rank).first,
+    const Eigen::VectorXd x = leastSquares(out.rows, fitted, out.rank),
                           left = rows.rightCols<1>() - rows.leftCols(fitted) * x;
     out.residual =
         Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>>(left.data(), instants, 6);
@@ -104,8 +107,7 @@ void setShared(const NoiseDraw& draw, const Comparison& comparison, const Compar
   }
   const Eigen::VectorXd product =
       whitened.noise.whitened(interleaved(tables)).transpose() * whitened.noise.whitened(draw.efforts);
-  Eigen::VectorXd scale = model.R.colwise().norm().transpose();
-  for (double& each : scale) each = each > 0 ? 1 / each : 0;
+  const Eigen::VectorXd scale = columnScales(model.R);
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors((model.R * scale.asDiagonal()).transpose());
   factors.setThreshold(1e-9);
   model.shared = factors.solve(scale.cwiseProduct(product));

@@ -156,10 +156,6 @@ Eigen::MatrixXd FilteredLog::sharperEfforts() const {
   return Kernel::apply(sharper_.value, log_.efforts, centers_) - efforts(0);
 }
 
-Vector6d FilteredLog::load(Eigen::Index i) const {
-  return load_.cols() > 0 ? Vector6d(load_.row(i).transpose()) : Vector6d(Vector6d::Zero());
-}
-
 Eigen::MatrixXd FilteredLog::efforts(double shift) const {
   return Kernel::apply(Kernel(plan_.state_cut, log_.step, shift).value, log_.efforts, centers_);
 }

@@ -43,14 +43,12 @@ class FilteredLog {
   /// acceleration of all channels.
   void takeOut(const Eigen::MatrixXd& noise);
   const Eigen::MatrixXd& taken() const { return taken_; }
-  /// Returns what is taken out of the motion, after the efforts' low pass; a settled instant in each row.
-  Eigen::MatrixXd takenOut() const { return lowPass(taken_); }
   /// Returns the same by a low pass with a higher cut-off.
   MeasuredState sharperState(Eigen::Index i) const;
   /// Returns what this one adds to efforts at the motion's instants: nothing if the motion is a period.
   Eigen::MatrixXd sharperEfforts() const;
-  Vector6d load(Eigen::Index i) const;
-  const std::vector<Segment>& segments() const { return segments_; }
+  /// Returns the load of a log that has one.
+  Vector6d load(Eigen::Index i) const { return load_.row(i).transpose(); }
   /// Returns efforts `shift` s later than the motion's instants, after a low pass like the motion's.
   Eigen::MatrixXd efforts(double shift) const;
   /// Returns efforts `shift` s later than the settled instants.
@@ -70,11 +68,8 @@ class FilteredLog {
     Eigen::Matrix3d covariance(double later) const;
   };
   Lines effortLines() const;
-  Lines motionLines() const { return motionLines(2); }
-  /// The same between the motion's instants, before the second low pass.
-  Lines stateLines() const { return motionLines(0); }
-  /// The same between the motion's instants, before the second low pass, and the settled ones.
-  Lines crossLines() const { return motionLines(1); }
+  /// The same before the second low pass, at none, one or both of the two instants: `second_passes` is 0, 1 or 2.
+  Lines motionLines(int second_passes = 2) const;
   /// The same for what the low pass with the higher cut-off passes in addition.
   Lines sharperLines() const;
   /// Returns the time beyond which noise is uncorrelated, s.
@@ -85,7 +80,6 @@ class FilteredLog {
  private:
   template <class Power>
   Lines linesOf(double spacing, double end, const Power& power) const;
-  Lines motionLines(int second_passes) const;
   void placeCenters(double reach);
   void placeSettled();
   std::vector<MeasuredState> statesBy(const Kernel& kernel, const std::vector<Eigen::Index>& rows) const;

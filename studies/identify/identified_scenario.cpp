@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <map>
 #include <set>
 
 #include "model/scenario_numbers.h"
@@ -14,77 +14,51 @@ namespace {
 /// A log says nothing of a number if more than this share of its prior uncertainty remains.
 constexpr double says_nothing = 0.9;
 
-/// A node at a dotted path, as takeTolerances writes it, with its parent.
-struct NodePlace {
-  toml::node* parent = nullptr;
-  toml::node* node = nullptr;
-  std::string key;
-};
-
-NodePlace placeOf(toml::table& document, const std::string& path) {
-  NodePlace out{nullptr, &document, ""};
-  for (std::size_t begin = 0; begin <= path.size() && out.node != nullptr;) {
-    const std::size_t end = std::min(path.find('.', begin), path.size());
-    std::string key = path.substr(begin, end - begin);
-    begin = end + 1;
-    out.parent = out.node;
-    if (toml::table* table = out.parent->as_table()) {
-      if (!table->contains(key)) key = otherFrictionName(key);
-      out.node = table->get(key);
-    } else if (toml::array* array = out.parent->as_array()) {
-      const bool tables =
-          !array->empty() && array->front().is_table() && array->front().as_table()->get("value") == nullptr;
-      out.node = array->get(std::stoul(key) - (tables ? 1 : 0));
-    } else {
-      out.node = nullptr;
-    }
-    out.key = key;
-  }
-  return out;
-}
-
 /// Writes numbers with their tolerances into a document.
 class ScenarioMarker {
  public:
-  explicit ScenarioMarker(toml::table& document) : document_(document) {}
+  explicit ScenarioMarker(toml::table& document) : document_(document), numbers_(document) {}
 
   void set(const MachineNumber& number, double value, double tolerance, const ManipulatorParameters& machine) {
-    const std::string path = held(number, machine);
-    if (path.empty()) return;
-    toml::table stated;
-    stated.insert("value", value);
-    stated.insert("tolerance", tolerance);
+    if (!hold(number, machine)) return;
+    toml::table& stated = marks_[numbers_.last()];
+    stated.insert_or_assign("value", value);
+    stated.insert_or_assign("tolerance", tolerance);
     stated.is_inline(true);
-    marks_.emplace_back(path, std::move(stated));
   }
 
   /// Call this last, because numbers are looked up as plain ones.
-  void apply() {
-    for (auto& [path, stated] : marks_) {
-      const NodePlace at = placeOf(document_, path);
-      if (at.node == nullptr) continue;
-      if (toml::table* table = at.parent->as_table())
-        table->insert_or_assign(at.key, std::move(stated));
-      else
-        at.parent->as_array()->replace(at.parent->as_array()->cbegin() + std::stol(at.key), std::move(stated));
+  void apply() { mark(document_); }
+
+ private:
+  void mark(toml::node& node) {
+    if (toml::table* table = node.as_table()) {
+      for (auto&& [key, child] : *table)
+        if (const auto at = marks_.find(&child); at != marks_.end())
+          table->insert_or_assign(std::string(key.str()), std::move(at->second));
+        else
+          mark(child);
+    } else if (toml::array* array = node.as_array()) {
+      for (auto child = array->begin(); child != array->end(); ++child)
+        if (const auto at = marks_.find(&*child); at != marks_.end())
+          array->replace(child, std::move(at->second));
+        else
+          mark(*child);
     }
   }
 
- private:
-  /// Returns the number's path in the document, written out of the defaults; empty if the document cannot have it.
-  std::string held(const MachineNumber& number, const ManipulatorParameters& machine) {
-    std::string path = number.path;
-    if (number.group == "inertia") makeSix(path);
-    if (hold(path)) return path;
-    if (number.quantity != Quantity::center) return "";
+  /// Writes the number out of the defaults. Returns false if the document cannot have it.
+  bool hold(const MachineNumber& number, const ManipulatorParameters& machine) {
+    if (number.group == "inertia") makeSix(number);
+    if (hold(number.path)) return true;
+    if (number.quantity != Quantity::center) return false;
     const Leg& leg = machine.legs[number.leg];
-    path += fmt::format(".{}", number.body == "proximal" ? leg.proximalLine() : 2);
-    return hold(path) ? path : "";
+    return hold(fmt::format("{}.{}", number.path, number.body == "proximal" ? leg.proximalLine() : 2));
   }
 
   bool hold(const std::string& path) {
     try {
-      ScenarioNumbers(document_).hold(path);
+      numbers_.hold(path);
       return true;
     } catch (const NumberKeyError&) {
       return false;
@@ -92,18 +66,16 @@ class ScenarioMarker {
   }
 
   /// The document may give moments of inertia without products.
-  void makeSix(const std::string& path) {
-    hold(path.substr(0, path.rfind('.')) + ".0");
-    toml::array* entries = placeOf(document_, path.substr(0, path.rfind('.'))).node->as_array();
-    while (entries != nullptr && entries->size() == 3) {
-      entries->push_back(0.0);
-      entries->push_back(0.0);
-      entries->push_back(0.0);
-    }
+  void makeSix(const MachineNumber& number) {
+    hold(number.path.substr(0, number.path.rfind('.')) + ".0");
+    const std::string of = number.leg < 0 ? "platform" : fmt::format("leg[{}].{}", number.leg, number.body);
+    toml::array* entries = toml::at_path(document_, "manipulator." + of + ".inertia").as_array();
+    if (entries != nullptr && entries->size() == 3) entries->resize(6, 0.0);
   }
 
   toml::table& document_;
-  std::vector<std::pair<std::string, toml::table>> marks_;
+  ScenarioNumbers numbers_;
+  std::map<const toml::node*, toml::table> marks_;
 };
 
 /// The array of a body's tensor; empty for other numbers.
@@ -112,14 +84,15 @@ std::string tensorOf(const MachineNumber& number) {
 }
 
 bool isShown(const NumberEstimate& each) {
-  if (each.before == 0 || each.deviation > says_nothing * each.before) return false;
-  const bool may_be_none = each.number.group == "friction" || each.number.group == "rotor";
-  return !may_be_none || each.nominal > 1e-200 || each.value > 2 * each.deviation;
+  const MeasuredNumber& measured = each.measured;
+  if (each.before == 0 || measured.uncertainty > says_nothing * each.before) return false;
+  const bool may_be_none = measured.group == "friction" || measured.group == "rotor";
+  return !may_be_none || measured.nominal > 1e-200 || measured.value > 2 * measured.uncertainty;
 }
 
 }  // namespace
 
-std::string identifiedScenario(const Scenario& scenario, const PhysicalEstimate& estimate) {
+std::string identifiedScenario(const Scenario& scenario, const std::vector<NumberEstimate>& estimates) {
   if (!scenario.isAsRead()) return "";
   toml::table document = parseToml(scenario.text, scenario.file.string());
   takeTolerances(document, scenario.file.string());
@@ -129,12 +102,12 @@ std::string identifiedScenario(const Scenario& scenario, const PhysicalEstimate&
   // A tensor is written as a whole: the estimate is one that a body can have, and a mixture with the old one need not
   // be.
   std::set<std::string> tensors;
-  for (const NumberEstimate& each : estimate.numbers)
+  for (const NumberEstimate& each : estimates)
     if (isShown(each)) tensors.insert(tensorOf(each.number));
-  for (const NumberEstimate& each : estimate.numbers) {
+  for (const NumberEstimate& each : estimates) {
     const std::string tensor = tensorOf(each.number);
     if (!isShown(each) && (tensor.empty() || tensors.count(tensor) == 0)) continue;
-    marker.set(each.number, each.value, each.deviation, machine);
+    marker.set(each.number, each.measured.value, each.measured.uncertainty, machine);
     others.erase(each.number.path);
   }
   for (const MachineNumber& number : machineNumbers(machine))

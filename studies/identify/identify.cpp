@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/provenance.h"
-#include "studies/identify/judge.h"
 #include "studies/identify/results.h"
 #include "validation/subject/torque_names.h"
 
@@ -38,10 +37,12 @@ class Identification {
   IdentifyResult run() {
     tell(0.05, "reading signs of the log");
     describe();
-    if (isStill(log_)) return unmoved();
+    if (isStill(log_))
+      return unjudged({"still", -1, 0, "", "no coordinate moves by more than its noise: expected a motion"},
+                      "The machine stands still in the log, so the model is not judged.");
     const Periods periods = averagePeriods(log_);
     out_.periods = periods.count;
-    const FilterPlan plan = planFilters(log_, periods.count > 1, sampleNoise(log_, periods));
+    const FilterPlan plan = planFilters(log_, periods.count > 1, periods.noise);
     out_.bandwidth = plan.bandwidth;
     out_.state_cut = plan.state_cut;
     out_.effort_cut = plan.effort_cut;
@@ -49,7 +50,12 @@ class Identification {
     const double most = std::min(most_delay, delay_share * out_.duration);
     tell(0.1, "following the motion");
     const double coarse = coarseDelay(plan, most);
-    if (out_.instants < fewest_instants) return unjudged();
+    if (out_.instants < fewest_instants)
+      return unjudged({"too_short", -1, out_.duration, "s",
+                       fmt::format("the low passes leave {} independent instants of {:.4g} s at {:.4g} Hz, and at "
+                                   "least {} are needed: expected a longer or faster log",
+                                   out_.instants, out_.duration, 1 / log_.step, fewest_instants)},
+                      "The log is too short to judge the model.");
     FilteredLog filtered(log_, plan, std::abs(coarse) + 1 / plan.state_cut);
     std::optional<ModelledLog> modelled;
     Comparison comparison;
@@ -81,8 +87,8 @@ class Identification {
     out_.rows = log_.file_rows;
     out_.duration = log_.step * static_cast<double>(log_.rows());
     out_.findings = log_.findings;
-    findSigns(log_, scenario_.manipulator->motors(), out_.findings);
-    findUnitOfTime(out_.duration, scenario_.trajectory->duration(), out_.findings, out_.causes);
+    findSigns(log_, scenario_.manipulator->motors(), out_);
+    findUnitOfTime(scenario_.trajectory->duration(), out_);
   }
 
   void noteTooSlow(const FilterPlan& plan) {
@@ -107,24 +113,14 @@ class Identification {
     out_.instants = static_cast<Eigen::Index>(filtered.settled().size());
     if (out_.instants < fewest_instants) return 0;
     const ModelledLog modelled(scenario_, log_, filtered);
-    findMistakes(modelled, scenario_.manipulator->motors(), out_.findings, out_.causes);
+    findMistakes(modelled, scenario_.manipulator->motors(), out_);
     return modelled.coarseDelay(most);
   }
 
-  IdentifyResult unmoved() {
-    out_.findings.push_back({"still", -1, 0, "", "no coordinate moves by more than its noise: expected a motion"});
+  IdentifyResult unjudged(const LogFinding& why, const char* sentence) {
+    out_.findings.push_back(why);
     out_.verdict = Verdict::inconclusive;
-    out_.sentence = "The machine stands still in the log, so the model is not judged.";
-    return std::move(out_);
-  }
-
-  IdentifyResult unjudged() {
-    out_.findings.push_back({"too_short", -1, out_.duration, "s",
-                             fmt::format("the low passes leave {} independent instants of {:.4g} s at {:.4g} Hz, and "
-                                         "at least {} are needed: expected a longer or faster log",
-                                         out_.instants, out_.duration, 1 / log_.step, fewest_instants)});
-    out_.verdict = Verdict::inconclusive;
-    out_.sentence = "The log is too short to judge the model.";
+    out_.sentence = sentence;
     return std::move(out_);
   }
 
@@ -134,7 +130,7 @@ class Identification {
     const ManipulatorParameters& machine = scenario_.manipulator->parameters();
     const EffortNoise noise(modelled.filtered(), comparison);
     for (int pass = 0; pass < 6; ++pass) {
-      modelled.compare(out_.delay, comparison);
+      comparison.measured = modelled.filtered().settledEfforts(out_.delay)(comparison.kept, Eigen::all);
       whitened_ = whiten(comparison, noise);
       root_ = squareRootOf(whitened_.rows);
       base_ = fitBase(root_, comparison.directions, comparison.further());
@@ -173,12 +169,12 @@ class Identification {
     out_.validation_fitted = validation.fitted;
     out_.validation_from_s = validation.from_s;
     addCombinations(base_, comparison, out_);
-    const PhysicalEstimate estimate = estimateMachine(root_, comparison, machine, tolerances_, options_.prior);
-    addNumbers(estimate, base_.quantile, out_);
+    const auto estimates = estimateNumbers(root_, comparison, machine, tolerances_, options_.prior);
+    addNumbers(estimates, base_.quantile, out_);
     for (MeasuredNumber& each : out_.numbers)
       if (const auto at = judged.least_found.find(each.name); at != judged.least_found.end())
         each.least_found = at->second;
-    out_.identified_scenario = identifiedScenario(scenario_, estimate);
+    out_.identified_scenario = identifiedScenario(scenario_, estimates);
     addSeries(comparison, base_, modelled.filtered(), out_);
     out_.verdict = verdictOf(judged);
     out_.sentence = identifySentence(out_);
@@ -192,7 +188,7 @@ class Identification {
     };
     const double freedom = 6.0 * static_cast<double>(comparison.model.rows());
     const double correction = std::sqrt(freedom / std::max(freedom - static_cast<double>(whitened_.rank), 1.0));
-    u_val_.resize(comparison.model.rows(), motor_count);
+    Eigen::MatrixXd u_val(comparison.model.rows(), motor_count);
     for (int k = 0; k < motor_count; ++k) {
       MotorAgreement& motor = out_.motors[k];
       const Eigen::VectorXd E = comparison.model.col(k) - comparison.measured.col(k);
@@ -210,12 +206,12 @@ class Identification {
       motor.u_input = rms(input.col(k));
       const Eigen::VectorXd noise = whitened_.variances.col(k);
       motor.u_D = std::sqrt(noise.mean() - motor.u_num * motor.u_num + from_delay.cwiseAbs2().mean());
-      u_val_.col(k) = (input.col(k).cwiseAbs2() + from_delay.cwiseAbs2() + noise).cwiseSqrt();
-      motor.u_val = rms(u_val_.col(k));
-      motor.within = static_cast<double>((E.array().abs() <= 1.96 * u_val_.col(k).array()).count()) /
-                     static_cast<double>(E.size());
+      u_val.col(k) = (input.col(k).cwiseAbs2() + from_delay.cwiseAbs2() + noise).cwiseSqrt();
+      motor.u_val = rms(u_val.col(k));
+      motor.within =
+          static_cast<double>((E.array().abs() <= 1.96 * u_val.col(k).array()).count()) / static_cast<double>(E.size());
     }
-    addEfforts(comparison, u_val_, out_);
+    addEfforts(comparison, u_val, out_);
     noteLeft();
   }
 
@@ -254,7 +250,6 @@ class Identification {
   Whitened whitened_;
   SquareRoot root_;
   BaseFit base_;
-  Eigen::MatrixXd u_val_;
   IdentifyResult out_;
 };
 

@@ -26,11 +26,11 @@ struct MeasuredCause {
   std::string what, unit;
   int motor = 0;  ///< 1-based; 0 for none
   double expected = 0, found = 0, uncertainty = 0;
-  double tolerances = 0;             ///< deviation in units of its tolerance; 0 without one
-  double score = 0;                  ///< change divided by what tolerances and noise allow
-  double explained = 0;              ///< share of the deviation's square that it explains
-  bool outside = false;              ///< no combination of masses, inertias and friction does the same
-  std::vector<std::string> as_well;  ///< causes that cannot be told from it
+  double tolerances = 0;                  ///< deviation in units of its tolerance; 0 without one
+  double score = 0;                       ///< change divided by what tolerances and noise allow
+  double explained = 0;                   ///< share of the deviation's square that it explains
+  bool outside = false;                   ///< no combination of masses, inertias and friction does the same
+  std::vector<std::string> as_well = {};  ///< causes that cannot be told from it
 };
 
 /// The log's value of a number or combination. The interval is of 95 %.
@@ -43,7 +43,7 @@ struct MeasuredNumber {
   double least_found = 0;  ///< smallest deviation that the log tells from tolerances and noise in 95 % of all cases; 0
                            ///< if there is no such or no tolerance
   bool identified = true;  ///< whether a single number's uncertainty is below a tenth of its own size
-  std::vector<std::pair<std::string, double>> terms;  ///< names and factors of a combination
+  std::vector<std::pair<std::string, double>> terms = {};  ///< names and factors of a combination
 };
 
 /// Agreement of a motor's measured efforts with the model.

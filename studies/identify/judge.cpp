@@ -1,5 +1,3 @@
-#include "studies/identify/judge.h"
-
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
@@ -8,7 +6,10 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <iterator>
 #include <map>
+
+#include "studies/identify/results.h"
 
 namespace ursula::identification {
 namespace {
@@ -109,11 +110,11 @@ std::size_t largestOf(const std::vector<Score>& scores) {
 
 /// Returns the suspect of the largest score, or the offset of a coordinate that cannot be told from it. An encoder is
 /// off more often than a joint's place.
-std::size_t likeliestOf(const std::vector<Score>& scores, const std::vector<const Suspect*>& suspects) {
+std::size_t likeliestOf(const std::vector<Score>& scores, const std::vector<Suspect>& suspects) {
   const std::size_t best = largestOf(scores);
   const double least = scores[best].score * scores[best].score - alike;
-  for (std::size_t j = 0; j < scores.size() && suspects[best]->direction.kind == DirectionKind::number; ++j)
-    if (suspects[j]->direction.kind == DirectionKind::encoder && scores[j].score * scores[j].score > least) return j;
+  for (std::size_t j = 0; j < scores.size() && suspects[best].direction.kind == DirectionKind::number; ++j)
+    if (suspects[j].direction.kind == DirectionKind::encoder && scores[j].score * scores[j].score > least) return j;
   return best;
 }
 
@@ -122,9 +123,9 @@ double ownDeviation(const Score& score, double tolerance) {
   return std::sqrt(std::max(0.0, score.deviation * score.deviation - tolerance * tolerance));
 }
 
-Eigen::MatrixXd columnsOf(const std::vector<const Suspect*>& suspects, Eigen::Index rows) {
+Eigen::MatrixXd columnsOf(const std::vector<Suspect>& suspects, Eigen::Index rows) {
   Eigen::MatrixXd out(rows, suspects.size());
-  for (std::size_t j = 0; j < suspects.size(); ++j) out.col(j) = suspects[j]->column;
+  for (std::size_t j = 0; j < suspects.size(); ++j) out.col(j) = suspects[j].column;
   return out;
 }
 
@@ -142,44 +143,33 @@ double likelyMost(Eigen::Index squares) {
 
 /// Whether a mass, an inertia or a friction explains all but a hundredth of the squared deviation. What it leaves is
 /// then no other cause, but what is beyond the linearisation, which a log with little noise shows.
-bool oneExplainsAll(const std::vector<const Suspect*>& suspects, const Eigen::MatrixXd& columns,
-                    const Allowance& allowance, const Eigen::VectorXd& z) {
+bool oneExplainsAll(const std::vector<Suspect>& suspects, const Eigen::MatrixXd& columns, const Allowance& allowance,
+                    const Eigen::VectorXd& z) {
   const std::vector<Score> scores = scoresOf(columns, allowance(columns), z);
   const std::size_t best = likeliestOf(scores, suspects);
-  return !isOutside(suspects[best]->direction.kind) &&
+  return !isOutside(suspects[best].direction.kind) &&
          scores[best].score * scores[best].score > 0.99 * z.dot(allowance(z).col(0));
 }
 
-const Eigen::VectorXd& columnOf(const MeasuredCause& cause, const std::vector<Suspect>& suspects) {
-  return std::find_if(suspects.begin(), suspects.end(),
-                      [&cause](const Suspect& each) {
-                        return each.direction.words == cause.what && each.direction.path == cause.parameter;
-                      })
-      ->column;
-}
-
-/// Finds one cause after another, with the earlier ones free.
-void findCauses(const std::vector<const Suspect*>& suspects, Allowance& allowance, const Eigen::VectorXd& z,
-                double threshold, bool outside, std::vector<MeasuredCause>& out) {
+/// Finds one cause after another by the first allowance. All of them are then free in all allowances.
+void findCauses(const std::vector<Suspect>& suspects, const std::vector<Allowance*>& allowances,
+                const Eigen::VectorXd& z, double threshold, bool outside, std::vector<MeasuredCause>& out) {
   if (suspects.empty()) return;
   const Eigen::MatrixXd columns = columnsOf(suspects, z.size());
+  const Allowance& allowance = *allowances.front();
   const double all = z.dot(allowance(z).col(0));
   for (std::size_t pass = 0; pass < most_causes; ++pass) {
     std::vector<Score> scores = scoresOf(columns, allowance(columns), z);
     for (std::size_t j = 0; j < scores.size(); ++j)
-      if (cannotBeNegative(suspects[j]->direction.kind) && scores[j].change < 0) scores[j] = {};
+      if (cannotBeNegative(suspects[j].direction.kind) && scores[j].change < 0) scores[j] = {};
     const std::size_t best = likeliestOf(scores, suspects);
     const Score& score = scores[best];
     if (!(std::abs(score.score) > threshold)) return;
-    const Suspect& found = *suspects[best];
-    MeasuredCause cause;
-    cause.kind = name(found.direction.kind);
-    cause.parameter = found.direction.path;
-    cause.what = found.direction.words;
-    cause.unit = found.direction.unit;
-    cause.motor = found.direction.motor + 1;
-    cause.expected = stated(found.direction.nominal);
-    cause.found = found.direction.nominal + score.change;
+    const Suspect& found = suspects[best];
+    const Direction& direction = found.direction;
+    MeasuredCause cause{name(direction.kind), direction.path, direction.words, direction.unit, direction.motor + 1};
+    cause.expected = stated(direction.nominal);
+    cause.found = direction.nominal + score.change;
     cause.uncertainty = ownDeviation(score, found.tolerance);
     cause.tolerances = found.tolerance > 0 ? score.change / found.tolerance : 0;
     cause.score = score.score;
@@ -187,9 +177,9 @@ void findCauses(const std::vector<const Suspect*>& suspects, Allowance& allowanc
     cause.outside = outside;
     for (std::size_t j = 0; j < scores.size(); ++j)
       if (j != best && scores[j].score * scores[j].score > score.score * score.score - alike)
-        cause.as_well.push_back(suspects[j]->direction.name());
+        cause.as_well.push_back(suspects[j].direction.name());
     out.push_back(cause);
-    allowance.free(found.column);
+    for (Allowance* each : allowances) each->free(found.column);
   }
 }
 
@@ -252,23 +242,18 @@ std::pair<double, double> delayLeft(const SquareRoot& model, const Comparison& c
   const Eigen::MatrixXd column = model.R.col(comparison.delay());
   Allowance allowance(withinTolerances(suspects, model)), of_any_delay = allowance;
   of_any_delay.free(column);
-  std::vector<const Suspect*> all;
-  for (const Suspect& each : suspects) all.push_back(&each);
   std::vector<MeasuredCause> causes;
-  findCauses(all, of_any_delay, model.z, thresholdOf(risk_of_number, static_cast<double>(all.size()), noise_freedom),
-             false, causes);
-  for (const MeasuredCause& cause : causes) allowance.free(columnOf(cause, suspects));
+  findCauses(suspects, {&of_any_delay, &allowance}, model.z,
+             thresholdOf(risk_of_number, static_cast<double>(suspects.size()), noise_freedom), false, causes);
   const Score score = scoresOf(column, allowance(column), model.z).front();
   return {score.change, score.deviation};
 }
 
 Judgement judge(const SquareRoot& model, const Comparison& comparison, const std::vector<Suspect>& suspects,
                 double delay_deviation, Eigen::Index noise_freedom) {
-  std::vector<const Suspect*> all, outside;
-  for (const Suspect& each : suspects) {
-    all.push_back(&each);
-    if (isOutside(each.direction.kind)) outside.push_back(&each);
-  }
+  std::vector<Suspect> outside;
+  std::copy_if(suspects.begin(), suspects.end(), std::back_inserter(outside),
+               [](const Suspect& each) { return isOutside(each.direction.kind); });
   const Eigen::MatrixXd within = withinTolerances(suspects, model);
   Eigen::MatrixXd columns(model.R.rows(), within.cols() + 1 + motor_count);
   columns << model.R.col(comparison.delay()) * delay_deviation, model.R.middleCols(comparison.further(), motor_count),
@@ -280,22 +265,21 @@ Judgement judge(const SquareRoot& model, const Comparison& comparison, const std
   Eigen::MatrixXd all_linear = basis * 1e5, with_tolerances(model.R.rows(), all_linear.cols() + columns.cols());
   with_tolerances << all_linear, columns;
   Allowance beyond_numbers(with_tolerances), allowance(columns);
-  const Eigen::MatrixXd every = columnsOf(all, model.R.rows()), everything = basisOf(every);
-  if (!oneExplainsAll(all, every, allowance, model.z))
-    findCauses(outside, beyond_numbers, model.z,
+  const Eigen::MatrixXd every = columnsOf(suspects, model.R.rows()), everything = basisOf(every);
+  if (!oneExplainsAll(suspects, every, allowance, model.z))
+    findCauses(outside, {&beyond_numbers, &allowance}, model.z,
                thresholdOf(risk_outside, static_cast<double>(outside.size()), noise_freedom), true, out.causes);
-  for (const MeasuredCause& cause : out.causes) allowance.free(columnOf(cause, suspects));
   out.freedom = everything.cols();
   out.threshold = thresholdOf(risk_of_number, static_cast<double>(out.freedom), noise_freedom);
   const std::vector<Score> scores = scoresOf(every, allowance(every), model.z);
-  for (std::size_t j = 0; j < all.size(); ++j)
-    if (const double tolerance = all[j]->tolerance; tolerance > 0 && scores[j].deviation > 0)
-      out.least_found[all[j]->direction.path] =
+  for (std::size_t j = 0; j < suspects.size(); ++j)
+    if (const double tolerance = suspects[j].tolerance; tolerance > 0 && scores[j].deviation > 0)
+      out.least_found[suspects[j].direction.path] =
           out.threshold * scores[j].deviation + one_sided * ownDeviation(scores[j], tolerance);
   out.squares = model.z.dot(everything * (everything.transpose() * allowance(model.z).col(0)));
   out.squares_limit = likelyMost(out.freedom) *
                       (1 + 4 * std::sqrt(2.0 / static_cast<double>(std::max<Eigen::Index>(noise_freedom, 8))));
-  findCauses(all, allowance, model.z, out.threshold, false, out.causes);
+  findCauses(suspects, {&allowance}, model.z, out.threshold, false, out.causes);
   // Columns that noise dominates follow the deviation. Their squares tell a model error only if all of it is too large.
   const bool by_noise = (everything.transpose() * model.shared).squaredNorm() > static_cast<double>(out.freedom) &&
                         model.z.dot(allowance(model.z).col(0)) + model.rest < likelyMost(model.rows);

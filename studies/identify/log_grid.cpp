@@ -73,9 +73,8 @@ void LogGrid::put(double t, std::vector<double>& row, const Place& place) {
 }
 
 void LogGrid::append(const std::vector<double>& row, bool missing) {
-  ++rows_;
   missing_.push_back(missing);
-  if (passed_++ % every_ != 0) return;
+  if (rows_++ % every_ != 0) return;
   data_.insert(data_.end(), row.begin(), row.end());
   if (data_.size() >= most_log_rows * width_ && !isFull()) halve();
 }

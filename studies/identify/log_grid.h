@@ -40,7 +40,7 @@ class LogGrid {
   std::vector<double> data_, last_;
   std::vector<bool> missing_;
   double step_ = 0, first_t_ = 0, grid_t_ = 0, last_t_ = 0, jitter_ = 0;
-  std::size_t count_ = 0, rows_ = 0, gaps_ = 0, lacking_ = 0, left_out_ = 0, passed_ = 0;
+  std::size_t count_ = 0, rows_ = 0, gaps_ = 0, lacking_ = 0, left_out_ = 0;
   int every_ = 1;
 };
 

@@ -16,25 +16,16 @@ constexpr double explains = 0.05;
 /// Efforts are those of another unit if their factor is this far from 1, as a logarithm to base 10.
 constexpr double least_power = 1.5;
 
-double squares(const Eigen::VectorXd& model, const Eigen::VectorXd& measured) {
-  return (model - measured).squaredNorm();
-}
-
-void add(std::vector<LogFinding>& findings, std::vector<MeasuredCause>& causes, const char* kind, int motor,
-         double value, const std::string& what) {
-  findings.push_back({kind, motor, value, "", what});
-  MeasuredCause cause;
-  cause.kind = kind;
-  cause.what = what;
-  cause.motor = motor + 1;
-  cause.found = value;
-  cause.explained = 1;
-  causes.push_back(cause);
+/// Adds a finding that is a cause.
+void add(IdentifyResult& out, const char* kind, int motor, double value, const std::string& what) {
+  out.findings.push_back({kind, motor, value, "", what});
+  out.causes.push_back({kind, "", what, "", motor + 1, 0, value});
+  out.causes.back().explained = 1;
 }
 
 /// Looks for another order of the motors that explains the efforts. `left` has the squared deviation of the model's
 /// efforts (rows) from each measured column.
-bool findOrder(const Matrix6d& left, std::vector<LogFinding>& findings, std::vector<MeasuredCause>& causes) {
+bool findOrder(const Matrix6d& left, IdentifyResult& out) {
   std::array<Eigen::Index, motor_count> column{};
   std::vector<int> moved;
   double before = 0, after = 0;
@@ -50,7 +41,7 @@ bool findOrder(const Matrix6d& left, std::vector<LogFinding>& findings, std::vec
   if (moved.empty() || !(after < explains * before)) return false;
   std::vector<Eigen::Index> found;
   for (const int motor : moved) found.push_back(column[static_cast<std::size_t>(motor - 1)] + 1);
-  add(findings, causes, "order", moved.front() - 1, static_cast<double>(found.front()),
+  add(out, "order", moved.front() - 1, static_cast<double>(found.front()),
       moved.size() == 2 ? fmt::format("the efforts of motors {} and {} look exchanged", moved[0], moved[1])
                         : fmt::format("the efforts of motors {} look like those in the columns of motors {}",
                                       fmt::join(moved, ", "), fmt::join(found, ", ")));
@@ -59,13 +50,13 @@ bool findOrder(const Matrix6d& left, std::vector<LogFinding>& findings, std::vec
 
 }  // namespace
 
-void findSigns(MeasuredLog& log, const Motors& motors, std::vector<LogFinding>& findings) {
+void findSigns(MeasuredLog& log, const Motors& motors, IdentifyResult& out) {
   for (int k = 0; k < motor_count; ++k) {
     const std::string unit = motors[k].effortUnit();
     const auto rows = saturatedRows(log.efforts.col(k));
     for (const Eigen::Index row : rows) log.missing[row] = true;
     if (!rows.empty())
-      findings.push_back(
+      out.findings.push_back(
           {"saturation", k, static_cast<double>(rows.size()) / static_cast<double>(log.rows()), "",
            fmt::format("the effort of motor {} rests at {:.6g} {} in {} rows from {:.6g} s on: clipped, and left out",
                        k + 1, log.efforts(rows.front(), k), unit, rows.size(),
@@ -75,8 +66,9 @@ void findSigns(MeasuredLog& log, const Motors& motors, std::vector<LogFinding>& 
                              const std::string& unit) {
     const double step = quantum(signal);
     if (step > 0 && step / std::sqrt(12.0) > 0.5 * whiteNoise(signal))
-      findings.push_back({"quantisation", channel, step, unit,
-                          fmt::format("{} comes in steps of {:.3g} {}, which is most of its noise", what, step, unit)});
+      out.findings.push_back(
+          {"quantisation", channel, step, unit,
+           fmt::format("{} comes in steps of {:.3g} {}, which is most of its noise", what, step, unit)});
   };
   for (int k = 0; k < motor_count; ++k) {
     const Motor& motor = motors[k];
@@ -86,32 +78,30 @@ void findSigns(MeasuredLog& log, const Motors& motors, std::vector<LogFinding>& 
   }
 }
 
-void findMistakes(const ModelledLog& modelled, const Motors& motors, std::vector<LogFinding>& findings,
-                  std::vector<MeasuredCause>& causes) {
+void findMistakes(const ModelledLog& modelled, const Motors& motors, IdentifyResult& out) {
   const Eigen::MatrixXd measured = modelled.filtered().efforts(0), &model = modelled.efforts();
   Matrix6d left;
   for (int k = 0; k < motor_count; ++k)
-    for (int j = 0; j < motor_count; ++j) left(k, j) = squares(model.col(k), measured.col(j));
-  const bool exchanged = findOrder(left, findings, causes);
+    for (int j = 0; j < motor_count; ++j) left(k, j) = (model.col(k) - measured.col(j)).squaredNorm();
+  const bool exchanged = findOrder(left, out);
   for (int k = 0; k < motor_count; ++k)
-    if (!exchanged && squares(-model.col(k), measured.col(k)) < explains * left(k, k))
-      add(findings, causes, "sign", k, -1, fmt::format("the effort of motor {} has the other sign", k + 1));
+    if (!exchanged && (-model.col(k) - measured.col(k)).squaredNorm() < explains * left(k, k))
+      add(out, "sign", k, -1, fmt::format("the effort of motor {} has the other sign", k + 1));
   const double factor = model.cwiseProduct(measured).sum() / model.squaredNorm();
   if (factor > 0 && std::abs(std::log10(factor)) > least_power &&
       (model * factor - measured).squaredNorm() < explains * measured.squaredNorm())
-    add(findings, causes, "units", -1, factor,
+    add(out, "units", -1, factor,
         fmt::format("all efforts are {:.4g} times the model's: expected {}", factor, motors[0].slides() ? "N" : "N m"));
 }
 
-void findUnitOfTime(double duration, double of_motion, std::vector<LogFinding>& findings,
-                    std::vector<MeasuredCause>& causes) {
+void findUnitOfTime(double of_motion, IdentifyResult& out) {
   constexpr double near = 0.02;
   const std::array<std::pair<double, const char*>, 2> units = {{{1e3, "milliseconds"}, {1e6, "microseconds"}}};
   for (const auto& [factor, unit] : units)
-    if (std::abs(duration / (factor * of_motion) - 1) < near)
-      add(findings, causes, "units", -1, factor,
-          fmt::format("the log lasts {:.4g} s and the scenario's motion {:.4g} s: its instants look like {}", duration,
-                      of_motion, unit));
+    if (std::abs(out.duration / (factor * of_motion) - 1) < near)
+      add(out, "units", -1, factor,
+          fmt::format("the log lasts {:.4g} s and the scenario's motion {:.4g} s: its instants look like {}",
+                      out.duration, of_motion, unit));
 }
 
 bool isStill(const MeasuredLog& log) {

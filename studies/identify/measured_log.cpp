@@ -121,7 +121,6 @@ class LogReader {
       grid.add(t, row, [this] { return fmt::format("{}:{}", shownPath(file_), line_); });
     }
     MeasuredLog log = parted(grid.finish(file_), motion);
-    log.by_currents = columns_.has_currents;
     log.read_as = columns_.read_as;
     log.ignored = columns_.ignored;
     return log;

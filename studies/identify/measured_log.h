@@ -34,9 +34,8 @@ struct MeasuredLog {
   double start = 0, step = 0;  ///< first instant and step of these rows, s
   double file_step = 0;        ///< step of the file's rows, s
   std::size_t file_rows = 0;
-  int every = 1;           ///< this row of the file and its multiples are taken
-  bool has_poses = false;  ///< `motion` has p (m) and q [w, x, y, z]; otherwise driven coordinates, rad or m
-  bool by_currents = false;
+  int every = 1;                  ///< this row of the file and its multiples are taken
+  bool has_poses = false;         ///< `motion` has p (m) and q [w, x, y, z]; otherwise driven coordinates, rad or m
   Eigen::MatrixXd motion;         ///< an instant in each row, 6 or 7 columns
   Eigen::MatrixXd efforts;        ///< N·m or N, an instant in each row, a motor in each column
   Eigen::MatrixXd load;           ///< [moment about P; force] in B, an instant in each row; no columns without a load

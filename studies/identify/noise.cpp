@@ -1,10 +1,9 @@
-#include "studies/identify/noise.h"
-
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
+
+#include "studies/identify/estimate.h"
 
 namespace ursula::identification {
 namespace {
@@ -109,7 +108,7 @@ Eigen::MatrixXd likelyNoiseOfMotion(const FilteredLog& filtered, const Compariso
                                     const Eigen::VectorXd& weighed) {
   const Eigen::VectorXd variances = filtered.plan().noise.motion.cwiseAbs2().replicate(3, 1);
   const Eigen::Index channels = variances.size() / 3;
-  const FilteredLog::Lines lines = filtered.crossLines();
+  const FilteredLog::Lines lines = filtered.motionLines(1);
   std::map<long, Eigen::Matrix3d> between;  // by steps later
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(filtered.size(), 3 * channels);
   Eigen::Index first = 0;
@@ -140,7 +139,7 @@ NoiseDraw drawNoise(const FilteredLog& filtered, const Comparison& comparison) {
   NoiseDraw out{Eigen::MatrixXd::Zero(all, 3 * channels), Eigen::VectorXd(6 * comparison.t.size())};
   for (Eigen::Index c = 0; c < channels; ++c) {
     Eigen::MatrixXd series = Eigen::MatrixXd::Zero(all, 3);
-    addSeries(filtered.stateLines(), t, noise.motion(c), dice, series);
+    addSeries(filtered.motionLines(0), t, noise.motion(c), dice, series);
     for (int a = 0; a < 3; ++a) out.motion.col(a * channels + c) = series.col(a);
   }
   Eigen::MatrixXd efforts = Eigen::MatrixXd::Zero(comparison.t.size(), motor_count);

@@ -73,13 +73,12 @@ Plot effortPlot(const IdentifyResult& result, std::size_t k) {
                  {"fitted model", unit, 2, Stroke::line, columnOf(result, "fitted", k)}});
 }
 
-/// Adds one plot for each motor to the page. Returns their HTML.
-template <class PlotOf>
-std::string motorPlots(const IdentifyResult& result, const PlotOf& plotOfMotor, report::Page& page) {
+/// Adds plots to the page. Returns their HTML.
+std::string charts(const std::vector<Plot>& plots, report::Page& page) {
   std::string out;
-  for (std::size_t k = 0; k < result.motors.size(); ++k) {
-    page.charts.push_back(plotOfMotor(result, k));
-    out += report::figureHtml(page.charts.back(), page.charts.size() - 1, "h3");
+  for (const Plot& plot : plots) {
+    page.charts.push_back(plot);
+    out += report::figureHtml(plot, page.charts.size() - 1, "h3");
   }
   return "<div class=\"charts\">" + out + "</div>";
 }
@@ -187,11 +186,14 @@ std::string identifyPage(const IdentifyResult& result) {
   for (const LogFinding& each : result.findings) findings.push_back(each.kind + ": " + each.what);
   std::string errors, efforts, spectrum;
   if (!result.series.names.empty()) {
-    errors = motorsTable(result) + motorPlots(result, errorPlot, page);
-    efforts = motorPlots(result, effortPlot, page);
-    page.charts.push_back(spectrumPlot(result));
-    spectrum =
-        "<div class=\"charts\">" + report::figureHtml(page.charts.back(), page.charts.size() - 1, "h3") + "</div>";
+    std::vector<Plot> error_plots, effort_plots;
+    for (std::size_t k = 0; k < result.motors.size(); ++k) {
+      error_plots.push_back(errorPlot(result, k));
+      effort_plots.push_back(effortPlot(result, k));
+    }
+    errors = motorsTable(result) + charts(error_plots, page);
+    efforts = charts(effort_plots, page);
+    spectrum = charts({spectrumPlot(result)}, page);
     page.figures = {
         {"Delay", fmt::format("{:.3g} samples", result.delay / result.step),
          fmt::format("± {:.2g}", 1.96 * result.delay_uncertainty / result.step)},

@@ -68,7 +68,7 @@ Eigen::Index periodOf(const MeasuredLog& log) {
   return 0;
 }
 
-/// Returns the mean over the periods, and sets the standard deviation of a single one.
+/// Returns the mean over the periods, and sets its standard deviation.
 Eigen::MatrixXd averaged(const Eigen::MatrixXd& x, Eigen::Index rows, int count, Eigen::VectorXd& deviation) {
   Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(rows, x.cols());
   for (int i = 0; i < count; ++i) mean += x.middleRows(i * rows, rows) / count;
@@ -76,6 +76,7 @@ Eigen::MatrixXd averaged(const Eigen::MatrixXd& x, Eigen::Index rows, int count,
   for (int i = 0; i < count; ++i)
     deviation += (x.middleRows(i * rows, rows) - mean).colwise().squaredNorm().transpose();
   deviation = (deviation / (static_cast<double>(rows) * (count - 1))).cwiseSqrt();
+  deviation *= 1 / std::sqrt(static_cast<double>(count));
   return mean;
 }
 
@@ -83,27 +84,21 @@ Eigen::MatrixXd averaged(const Eigen::MatrixXd& x, Eigen::Index rows, int count,
 
 Periods averagePeriods(MeasuredLog& log) {
   Periods out;
-  out.rows = periodOf(log);
-  if (out.rows == 0) {
-    out.rows = log.rows();
+  SampleNoise& noise = out.noise;
+  const Eigen::Index rows = periodOf(log);
+  if (rows == 0) {
+    noise = {Eigen::VectorXd(log.motion.cols()), Eigen::VectorXd(motor_count)};
+    for (Eigen::Index k = 0; k < log.motion.cols(); ++k) noise.motion(k) = whiteNoise(log.motion.col(k), log.filled);
+    for (Eigen::Index k = 0; k < motor_count; ++k) noise.efforts(k) = whiteNoise(log.efforts.col(k), log.filled);
     return out;
   }
-  out.count = static_cast<int>(log.rows() / out.rows);
+  out.count = static_cast<int>(log.rows() / rows);
   Eigen::VectorXd unused;
-  log.motion = averaged(log.motion, out.rows, out.count, out.motion_noise);
-  log.efforts = averaged(log.efforts, out.rows, out.count, out.effort_noise);
-  if (log.load.cols() > 0) log.load = averaged(log.load, out.rows, out.count, unused);
-  log.missing.assign(out.rows, false);
+  log.motion = averaged(log.motion, rows, out.count, noise.motion);
+  log.efforts = averaged(log.efforts, rows, out.count, noise.efforts);
+  if (log.load.cols() > 0) log.load = averaged(log.load, rows, out.count, unused);
+  log.missing.assign(rows, false);
   log.filled.clear();
-  return out;
-}
-
-SampleNoise sampleNoise(const MeasuredLog& log, const Periods& periods) {
-  const double share = 1 / std::sqrt(static_cast<double>(periods.count));
-  if (periods.count > 1) return {periods.motion_noise * share, periods.effort_noise * share};
-  SampleNoise out{Eigen::VectorXd(log.motion.cols()), Eigen::VectorXd(motor_count)};
-  for (Eigen::Index k = 0; k < log.motion.cols(); ++k) out.motion(k) = whiteNoise(log.motion.col(k), log.filled);
-  for (Eigen::Index k = 0; k < motor_count; ++k) out.efforts(k) = whiteNoise(log.efforts.col(k), log.filled);
   return out;
 }
 

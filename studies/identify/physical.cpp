@@ -44,9 +44,10 @@ class MachineFit {
       const MachineNumber& number = numbers[j];
       if (!isOfBodies(number) && !isPositive(number)) continue;
       const double plausible = comparison.directions[linear++].plausible;
-      NumberEstimate estimate{number, number.get(nominal_), 0, -1, assumed(number, plausible), 0, false};
+      NumberEstimate estimate{number, assumed(number, plausible), {number.path, number.group, number.unit}};
+      estimate.measured.nominal = stated(number.get(nominal_));
       if (const auto at = tolerances.find(number.path); at != tolerances.end()) {
-        estimate.tolerance = at->second;
+        estimate.measured.tolerance = at->second;
         if (by_tolerances) estimate.before = at->second;
       }
       if (number.group == "inertia" && isThin(inertiaOf(nominal_, number))) estimate.before = 0;
@@ -59,7 +60,7 @@ class MachineFit {
     start();
   }
 
-  PhysicalEstimate fit() {
+  std::vector<NumberEstimate> fit() {
     double cost = costOf(machine_, rest_);
     for (int pass = 0; pass < 60; ++pass) {
       const Eigen::VectorXd step = newtonStep();
@@ -78,7 +79,8 @@ class MachineFit {
       cost = found;
       if (settled) break;
     }
-    return result();
+    setResults();
+    return std::move(estimates_);
   }
 
  private:
@@ -94,7 +96,7 @@ class MachineFit {
   void start() {
     rest_ = Eigen::VectorXd::Zero(motor_count + 1);
     for (const std::size_t j : free_)
-      if (isPositive(estimates_[j].number) && !(estimates_[j].nominal > 1e-200))
+      if (isPositive(estimates_[j].number) && !(estimates_[j].measured.nominal > 1e-200))
         estimates_[j].number.set(machine_, 1e-3 * estimates_[j].before);
     pi_nominal_ = momentsOf(nominal_).first;
   }
@@ -120,7 +122,7 @@ class MachineFit {
     for (const std::size_t j : free_) {
       const NumberEstimate& each = estimates_[j];
       const double value = each.number.get(machine);
-      cost += 0.5 * std::pow((value - each.nominal) / each.before, 2);
+      cost += 0.5 * std::pow((value - each.measured.nominal) / each.before, 2);
       if (isPositive(each.number)) {
         if (!(value > 0)) return std::numeric_limits<double>::infinity();
         cost -= barrier_weight * std::log(value / each.before);
@@ -177,7 +179,7 @@ class MachineFit {
       const NumberEstimate& each = estimates_[free_[k]];
       const auto at = k;
       const double value = each.number.get(machine_);
-      gradient(at) += (value - each.nominal) / std::pow(each.before, 2);
+      gradient(at) += (value - each.measured.nominal) / std::pow(each.before, 2);
       if (isPositive(each.number)) {
         gradient(at) -= barrier_weight / value;
         hessian(at, at) += barrier_weight / (value * value);
@@ -203,21 +205,22 @@ class MachineFit {
     return {next, rest_ + step.tail(motor_count + 1)};
   }
 
-  PhysicalEstimate result() {
-    const Eigen::MatrixXd whole = information(momentsOf(machine_).second);
+  void setResults() {
+    const Eigen::MatrixXd slopes = momentsOf(machine_).second, whole = information(slopes);
     const Eigen::MatrixXd covariance = scaledSolve(whole, Eigen::MatrixXd::Identity(whole.rows(), whole.cols()));
-    const Eigen::VectorXd shared = covariance * (jacobian(momentsOf(machine_).second).transpose() * model_.shared);
+    const Eigen::VectorXd shared = covariance * (jacobian(slopes).transpose() * model_.shared);
     for (NumberEstimate& each : estimates_) {
-      each.value = each.number.get(machine_);
-      each.deviation = each.before;
+      each.measured.value = each.number.get(machine_);
+      each.measured.uncertainty = each.before;
+      each.measured.identified = false;
     }
     for (std::size_t k = 0; k < free_.size(); ++k) {
-      NumberEstimate& each = estimates_[free_[k]];
-      each.deviation = std::sqrt(std::max(0.0, covariance(k, k)) + shared(k) * shared(k));
-      each.identified =
-          each.deviation < identified_share * assumed(each.number, comparison_.directions[free_[k]].plausible);
+      const NumberEstimate& each = estimates_[free_[k]];
+      MeasuredNumber& measured = estimates_[free_[k]].measured;
+      measured.uncertainty = std::sqrt(std::max(0.0, covariance(k, k)) + shared(k) * shared(k));
+      measured.identified =
+          measured.uncertainty < identified_share * assumed(each.number, comparison_.directions[free_[k]].plausible);
     }
-    return {estimates_, machine_, rest_.head<motor_count>()};
   }
 
   const SquareRoot& model_;
@@ -231,9 +234,9 @@ class MachineFit {
 
 }  // namespace
 
-PhysicalEstimate estimateMachine(const SquareRoot& model, const Comparison& comparison,
-                                 const ManipulatorParameters& machine, const NumberTolerances& tolerances,
-                                 bool by_tolerances) {
+std::vector<NumberEstimate> estimateNumbers(const SquareRoot& model, const Comparison& comparison,
+                                            const ManipulatorParameters& machine, const NumberTolerances& tolerances,
+                                            bool by_tolerances) {
   return MachineFit(model, comparison, machine, tolerances, by_tolerances).fit();
 }
 

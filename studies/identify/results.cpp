@@ -24,8 +24,13 @@ std::string groupOf(const Direction& direction) {
 }
 
 void addColumn(TimeSeries& series, const std::string& name, const Eigen::VectorXd& values) {
-  series.names.push_back(name);
-  series.columns.emplace_back(values.data(), values.data() + values.size());
+  series.add(name, {values.data(), values.data() + values.size()});
+}
+
+MeasuredNumber withInterval(MeasuredNumber number, double quantile) {
+  number.low = number.value - quantile * number.uncertainty;
+  number.high = number.value + quantile * number.uncertainty;
+  return number;
 }
 
 std::string motorColumn(const char* what, int k, const std::string& unit) {
@@ -57,20 +62,13 @@ std::string wordsOf(const Direction& direction) {
 void addCombinations(const BaseFit& fit, const Comparison& comparison, IdentifyResult& out) {
   for (const BaseParameter& base : fit.parameters) {
     const Direction& first = comparison.directions[base.terms.front().first];
-    MeasuredNumber number;
-    number.group = groupOf(first);
-    number.unit = first.unit;
-    number.nominal = stated(base.nominal);
-    number.value = base.value;
-    number.uncertainty = base.deviation;
+    MeasuredNumber number{"", groupOf(first), first.unit, stated(base.nominal), base.value, base.deviation};
     auto terms = base.terms;
     if (first.kind == DirectionKind::delay) {  // it has its own fit, within the numbers' tolerances
       number.value = out.delay;
       number.uncertainty = out.delay_uncertainty;
       terms.resize(1);
     }
-    number.low = number.value - fit.quantile * number.uncertainty;
-    number.high = number.value + fit.quantile * number.uncertainty;
     std::sort(terms.begin() + 1, terms.end(), [&](const auto& a, const auto& b) {
       const auto size = [&](const auto& term) {
         return std::abs(term.second) * comparison.directions[term.first].plausible;
@@ -86,27 +84,14 @@ void addCombinations(const BaseFit& fit, const Comparison& comparison, IdentifyR
                                             std::abs(terms[k].second), wordsOf(direction));
     }
     if (terms.size() > most_terms_in_words) number.name += " + …";
-    out.combinations.push_back(number);
+    out.combinations.push_back(withInterval(number, fit.quantile));
   }
   for (const Eigen::Index j : fit.unseen) out.unseen.push_back(wordsOf(comparison.directions[j]));
 }
 
-void addNumbers(const PhysicalEstimate& estimate, double quantile, IdentifyResult& out) {
-  for (const NumberEstimate& each : estimate.numbers) {
-    if (each.before == 0 && each.tolerance < 0) continue;
-    MeasuredNumber number;
-    number.name = each.number.path;
-    number.group = each.number.group;
-    number.unit = each.number.unit;
-    number.nominal = stated(each.nominal);
-    number.value = each.value;
-    number.uncertainty = each.deviation;
-    number.low = each.value - quantile * each.deviation;
-    number.high = each.value + quantile * each.deviation;
-    number.tolerance = each.tolerance;
-    number.identified = each.identified;
-    out.numbers.push_back(number);
-  }
+void addNumbers(const std::vector<NumberEstimate>& estimates, double quantile, IdentifyResult& out) {
+  for (const NumberEstimate& each : estimates)
+    if (each.before != 0 || each.measured.tolerance >= 0) out.numbers.push_back(withInterval(each.measured, quantile));
 }
 
 void addEfforts(const Comparison& comparison, const Eigen::MatrixXd& u_val, IdentifyResult& out) {

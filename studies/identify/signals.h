@@ -78,20 +78,18 @@ class FourierSeries {
 /// windows.
 Eigen::VectorXd powerSpectrum(const Eigen::VectorXd& signal, double step, int most_size = 512);
 
-/// The period of a log that repeats one motion, and the scatter of its channels.
-struct Periods {
-  int count = 1;                               ///< number of periods; 1 if not periodic
-  Eigen::Index rows = 0;                       ///< rows of a period
-  Eigen::VectorXd motion_noise, effort_noise;  ///< standard deviation of a single row; empty for one period
-};
-
 /// Standard deviation of white noise on each channel of a log's rows.
 struct SampleNoise {
   Eigen::VectorXd motion, efforts;
 };
-SampleNoise sampleNoise(const MeasuredLog& log, const Periods& periods);
 
-/// Finds the period. If there are two or more, `log` becomes their average.
+/// The number of periods of a log that repeats one motion, 1 for another, and the noise of its average.
+struct Periods {
+  int count = 1;
+  SampleNoise noise;
+};
+
+/// Finds the period. If there are two or more, `log` becomes their average, whose noise is that of their scatter.
 Periods averagePeriods(MeasuredLog& log);
 
 }  // namespace ursula::identification

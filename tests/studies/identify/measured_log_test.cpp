@@ -76,7 +76,6 @@ TEST_F(MeasuredLogs, areReadInManyDialects) {
 TEST_F(MeasuredLogs, currentsNeedTheirConstants) {
   const std::string text = rows("t_s,q1,q2,q3,q4,q5,q6,i1,i2,i3,i4,i5,i6", ",");
   const MeasuredLog log = read(text, {}, {2});
-  EXPECT_TRUE(log.by_currents);
   EXPECT_NEAR(log.efforts(10, 0), 2 * 10.1, 1e-5);
   EXPECT_THAT(refusal(text), HasSubstr("--constant"));
 }

@@ -91,8 +91,8 @@ TEST(Periods, areAveragedAndGiveTheNoise) {
   const Periods found = averagePeriods(log);
   ASSERT_EQ(found.count, 4);
   EXPECT_EQ(log.rows(), 1000);
-  EXPECT_NEAR(found.effort_noise(0), 0.01, 1e-3);
-  EXPECT_NEAR(found.motion_noise(0), 0.01, 1e-3);
+  EXPECT_NEAR(found.noise.efforts(0), 0.005, 5e-4) << "of a mean of four";
+  EXPECT_NEAR(found.noise.motion(0), 0.005, 5e-4);
   MeasuredLog once = periodic(3, 0.01);
   EXPECT_EQ(averagePeriods(once).count, 1);
   EXPECT_EQ(once.rows(), 4100);
@@ -125,8 +125,8 @@ TEST(MotionBandwidth, isThatOfTheRowsBesideAGap) {
 
 TEST(FourierSeries, endsWithTheLastHarmonicAboveTheNoise) {
   MeasuredLog log = periodic(1, 1e-4);
-  const Periods periods = averagePeriods(log);
-  const FourierSeries series(log.motion, log.step, sampleNoise(log, periods).motion, 1);
+  const SampleNoise noise = averagePeriods(log).noise;
+  const FourierSeries series(log.motion, log.step, noise.motion, 1);
   EXPECT_GE(series.harmonics(), 3);
   EXPECT_LE(series.harmonics(), 5);
   const double t = 0.21, w = 2 * pi;
