@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/scalar.h"
+#include "model/legs/leg_type.h"
 #include "studies/random/random_parts.h"
 
 namespace ursula {
@@ -63,27 +66,25 @@ Vector3d randomAxis(Dice& dice, Axes axes, double angle, double side) {
   return dice.direction();
 }
 
-LegPlace placeLeg(Dice& dice, const Recipe& recipe, const Rings& rings, int i) {
+void placeLeg(Dice& dice, const Recipe& recipe, const Rings& rings, int i, Leg& leg) {
   const int slot = i * leg_count / static_cast<int>(recipe.legs.size());  // fewer legs leave some empty
   const double side = slot % 2 == 0 ? -1 : 1;
   const int pair = slot / 2;
   const double middle = rings.turn + 2 * pi / 3 * pair;
-  LegPlace place;
   double angle = middle + side * rings.base_half;
   if (recipe.arrangement == Arrangement::anywhere) {
     const Vector3d around = dice.vector(1.2);
     angle = std::atan2(around.y(), around.x());
-    place.A = {around.x(), around.y(), 0.4 * around.z()};
-    place.B = Vector3d(0, 0, rings.height) + dice.vector(0.8);
+    leg.base_point = {around.x(), around.y(), 0.4 * around.z()};
+    leg.platform_point = Vector3d(0, 0, rings.height) + dice.vector(0.8);
   } else {
-    place.A = onRing(rings.base, angle) + dice.vector(rings.scatter);
-    place.B = onRing(rings.platform, middle + side * rings.platform_half) + Vector3d(0, 0, rings.height) +
-              dice.vector(rings.scatter);
+    leg.base_point = onRing(rings.base, angle) + dice.vector(rings.scatter);
+    leg.platform_point = onRing(rings.platform, middle + side * rings.platform_half) + Vector3d(0, 0, rings.height) +
+                         dice.vector(rings.scatter);
   }
-  place.axis = randomAxis(dice, recipe.axes, angle, side).normalized();
-  place.axis *= dice.uniform(0.5, 2);
-  place.knee = dice.chance(0.5) ? Knee::positive : Knee::negative;
-  return place;
+  leg.base_axis = randomAxis(dice, recipe.axes, angle, side).normalized();
+  leg.base_axis *= dice.uniform(0.5, 2);
+  leg.knee = dice.chance(0.5) ? Knee::positive : Knee::negative;
 }
 
 /// Returns an axis along z, exactly or up to a hundredth off.
@@ -95,19 +96,82 @@ Vector3d axisAlongZ(Dice& dice) {
   return axis;
 }
 
-}  // namespace
-
-Layout randomLayout(Dice& dice, const Recipe& recipe) {
-  const Rings rings = randomRings(dice, recipe.arrangement);
-  const int count = static_cast<int>(recipe.legs.size());
-  Layout layout;
-  for (int i = 0; i < count; ++i) layout.push_back(placeLeg(dice, recipe, rings, i));
-  if (recipe.axis_along_z) layout[static_cast<std::size_t>(dice.whole(0, count - 1))].axis = axisAlongZ(dice);
-  drawLinks(dice, recipe, layout);
-  return layout;
+LegSpan spanOf(const Leg& leg) {
+  const Vector3d AB = leg.platform_point - leg.base_point;
+  const double along = AB.dot(leg.base_axis.normalized());
+  return {AB.norm(), along, std::sqrt(std::max(0.0, AB.squaredNorm() - along * along))};
 }
 
-namespace {
+void give(const LinkLengths& links, Leg& leg) {
+  leg.proximal.length = links.l;
+  leg.distal.length = links.s;
+}
+
+/// Makes a leg nearly stretched, folded or perpendicular to its rail; UPS has no such pose.
+void closeNearly(Dice& dice, Leg& leg) {
+  const double bent = dice.uniform(3, 12) * degree;
+  const LegType& type = typeOf(leg.kind);
+  if (!type.folds()) {
+    if (const auto links = type.lengthsAtDeadCentre(spanOf(leg), bent)) give(*links, leg);
+    return;
+  }
+  // A folded leg needs links of different lengths, otherwise B would be at A.
+  const bool folded = dice.chance(0.3);
+  const double gamma = folded ? bent : pi - bent, ratio = folded ? dice.uniform(2, 3) : dice.spread(0.6, 1.6);
+  give(type.lengths(spanOf(leg), gamma, ratio), leg);
+}
+
+/// Changes one or two legs of those kinds, from a random one on.
+template <class F>
+void someOf(Dice& dice, bool (LegKindRow::*is)() const, std::vector<Leg>& legs, const F& change) {
+  const int count = static_cast<int>(legs.size());
+  const int first = dice.whole(0, count - 1);
+  int left = dice.whole(1, 2);
+  for (int k = 0; k < count && left > 0; ++k) {
+    Leg& leg = legs[static_cast<std::size_t>((first + k) % count)];
+    if (!(rowOf(leg.kind).*is)()) continue;
+    change(leg);
+    --left;
+  }
+}
+
+void nearStrokeEnd(Dice& dice, Leg& leg) {
+  const double beside = dice.spread(0.003, 0.05);
+  const double share = dice.chance(0.5) ? beside : 1 - beside;
+  give(lengthsAtStroke(spanOf(leg).distance, share, leg.proximal.length / leg.distal.length), leg);
+}
+
+/// Draws the links of placed legs.
+void drawLinks(Dice& dice, const Recipe& recipe, std::vector<Leg>& legs) {
+  const double unequal = recipe.unequal_links ? 5 : 1.5;
+  const int count = static_cast<int>(legs.size());
+  for (Leg& leg : legs) {
+    const double gamma = dice.uniform(20, 160) * degree;
+    give(typeOf(leg.kind).lengths(spanOf(leg), gamma, dice.spread(1 / unequal, unequal)), leg);
+  }
+  if (recipe.stroke_end) someOf(dice, &LegKindRow::isTelescopic, legs, [&](Leg& leg) { nearStrokeEnd(dice, leg); });
+  if (recipe.far_zero)
+    someOf(dice, &LegKindRow::hasCarriage, legs,
+           [&](Leg& leg) { leg.base_point += dice.spreadOfEitherSign(1, 30) * leg.base_axis.normalized(); });
+  if (!recipe.near_singular || dice.chance(0.4)) return;
+  const int first = dice.whole(0, count - 1), some = dice.whole(1, 2);
+  for (int k = 0; k < some; ++k) closeNearly(dice, legs[static_cast<std::size_t>((first + k) % count)]);
+}
+
+/// Returns legs that reach their platform points, with lengths in the machine's own and points relative to the middle
+/// of the base; z points from the base to the platform. Base and platform are drawn first, then links that close the
+/// loops. The triangle A R B of URS, or of RUS in the view along the axis, has a knee angle of 20° to 160°. The rod of
+/// PUS is at 20° to 70° to its rail; UPS is within the middle 70 % of its stroke. One or two legs exceed this on
+/// machines near a singularity or near a stroke's end.
+std::vector<Leg> randomLayout(Dice& dice, const Recipe& recipe) {
+  const Rings rings = randomRings(dice, recipe.arrangement);
+  std::vector<Leg> legs = recipe.legs;
+  const int count = static_cast<int>(legs.size());
+  for (int i = 0; i < count; ++i) placeLeg(dice, recipe, rings, i, legs[static_cast<std::size_t>(i)]);
+  if (recipe.axis_along_z) legs[static_cast<std::size_t>(dice.whole(0, count - 1))].base_axis = axisAlongZ(dice);
+  drawLinks(dice, recipe, legs);
+  return legs;
+}
 
 /// A helix with its middle at `position`; the platform takes the triad there. About a distant origin it hardly turns
 /// while it covers a share of the machine.
@@ -145,13 +209,13 @@ Eigen::Quaterniond helixTriad(const HelixParameters& helix) {
   return Eigen::Quaterniond(Q);
 }
 
-/// Places the layout randomly in B, and M randomly on the platform.
-void placeLegs(Dice& dice, const Recipe& recipe, const Layout& layout, Design& design) {
+/// Places a layout randomly in B, and M randomly on the platform.
+void placeLegs(Dice& dice, const Recipe& recipe, std::vector<Leg> legs, Design& design) {
   const Eigen::Quaterniond turn = dice.turn(recipe.turned ? pi : 0.1);
   const Vector3d origin = recipe.offset * dice.direction();
   const auto inBase = [&](const Vector3d& v) { return Vector3d(origin + turn * (recipe.length * v)); };
   Vector3d middle = Vector3d::Zero();
-  for (const LegPlace& place : layout) middle += inBase(place.B) / static_cast<double>(layout.size());
+  for (const Leg& leg : legs) middle += inBase(leg.platform_point) / static_cast<double>(legs.size());
   design.position = middle + recipe.platform_offset * dice.direction();
   if (recipe.motion == MotionKind::helix) {
     drawHelix(dice, recipe, design);
@@ -161,18 +225,14 @@ void placeLegs(Dice& dice, const Recipe& recipe, const Layout& layout, Design& d
   }
   const Eigen::Quaterniond inverse = design.orientation.conjugate();
   design.middle = inverse * (middle - design.position);
-  design.machine.legs.resize(layout.size());
-  for (std::size_t i = 0; i < layout.size(); ++i) {
-    Leg& leg = design.machine.legs[i];
-    leg.base_point = inBase(layout[i].A);
-    leg.platform_point = inverse * (inBase(layout[i].B) - design.position);
-    leg.base_axis = recipe.axis_along_z ? layout[i].axis : turn * layout[i].axis;
-    leg.proximal.length = layout[i].l * recipe.length;
-    leg.distal.length = layout[i].s * recipe.length;
-    leg.knee = layout[i].knee;
-    leg.kind = recipe.legs[i].kind;
-    leg.actuated = recipe.legs[i].actuated;
+  for (Leg& leg : legs) {
+    leg.base_point = inBase(leg.base_point);
+    leg.platform_point = inverse * (inBase(leg.platform_point) - design.position);
+    if (!recipe.axis_along_z) leg.base_axis = turn * leg.base_axis;
+    leg.proximal.length *= recipe.length;
+    leg.distal.length *= recipe.length;
   }
+  design.machine.legs = std::move(legs);
 }
 
 Vector3d gravityDirection(Dice& dice, GravityKind kind) {
@@ -195,14 +255,10 @@ Vector3d gravityDirection(Dice& dice, GravityKind kind) {
 
 }  // namespace
 
-Vector3d randomGravity(Dice& dice, const Recipe& recipe) {
-  return recipe.acceleration * gravityDirection(dice, recipe.gravity);
-}
-
 Design randomDesign(Dice& dice, const Recipe& recipe) {
   Design design;
   placeLegs(dice, recipe, randomLayout(dice, recipe), design);
-  design.machine.gravity = randomGravity(dice, recipe);
+  design.machine.gravity = recipe.acceleration * gravityDirection(dice, recipe.gravity);  // exactly zero for none
   drawBodies(dice, recipe, design.middle, design.machine);
   return design;
 }

@@ -47,35 +47,36 @@ LegKind randomLegKind(Dice& dice, RandomKind kind) {
   return of_one_kind ? static_cast<LegKind>(kind) : dice.pick<LegKind>(static_cast<int>(leg_kind_count));
 }
 
-std::string wordsOf(const LegRecipe& leg) {
+std::string wordsOf(const Leg& leg) {
   std::string words = rowOf(leg.kind).name;
   for (std::size_t j = 0; j < 3; ++j)
     if (leg.actuated[j]) words += fmt::format(" {}", nameOf(rowOf(leg.kind).coordinates[j]));
   return words;
 }
 
-}  // namespace
-
-std::vector<LegRecipe> randomLegs(Dice& dice, RandomKind kind, bool other_motors) {
-  std::vector<LegRecipe> legs;
-  if (kind == RandomKind::URS) return std::vector<LegRecipe>(leg_count);
+/// Returns three to six legs with six motors; for URS it draws no random number. With `other_motors`, motors may drive
+/// any coordinate.
+std::vector<Leg> randomLegs(Dice& dice, RandomKind kind, bool other_motors) {
+  if (kind == RandomKind::URS) return std::vector<Leg>(leg_count);
+  std::vector<Leg> legs;
   const bool alike = kind == RandomKind::two_motors && dice.chance(0.5);
   for (const int motors : randomMotorCounts(dice, kind)) {
     const LegKind of = alike && !legs.empty() ? legs.front().kind : randomLegKind(dice, kind);
-    legs.push_back({of, randomMotors(dice, of, motors, other_motors)});
+    legs.emplace_back();
+    legs.back().kind = of;
+    legs.back().actuated = randomMotors(dice, of, motors, other_motors);
   }
   return legs;
 }
 
-std::string wordsOf(const std::vector<LegRecipe>& legs) {
+/// "UPS d", or one such text per leg.
+std::string wordsOf(const std::vector<Leg>& legs) {
   std::vector<std::string> words;
-  for (const LegRecipe& leg : legs) words.push_back(wordsOf(leg));
+  for (const Leg& leg : legs) words.push_back(wordsOf(leg));
   if (std::all_of(words.begin(), words.end(), [&](const std::string& each) { return each == words.front(); }))
     return fmt::format("{} legs {}", words.size(), words.front());
   return fmt::format("legs {}", fmt::join(words, ", "));
 }
-
-namespace {
 
 /// Draws whether an unusual property occurs, and notes it.
 class Oddities {
@@ -126,7 +127,7 @@ void drawLegs(Dice& dice, Oddities& odd, Recipe& recipe) {
   recipe.legs = randomLegs(dice, kind, other_motors);
   const auto some = [&](bool (LegKindRow::*is)() const) {
     return std::any_of(recipe.legs.begin(), recipe.legs.end(),
-                       [is](const LegRecipe& leg) { return (rowOf(leg.kind).*is)(); });
+                       [is](const Leg& leg) { return (rowOf(leg.kind).*is)(); });
   };
   recipe.stroke_end = some(&LegKindRow::isTelescopic) && odd.happens(0.15, "near a stroke's end");
   recipe.far_zero = some(&LegKindRow::hasCarriage) && odd.happens(0.15, "carriage far from its zero");

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/leg_kind.h"
+#include "model/manipulator.h"
 #include "studies/random/dice.h"
 
 namespace ursula {
@@ -15,26 +15,6 @@ enum class RandomKind { URS, UPS, RUS, PUS, mixture, two_motors };
 inline constexpr std::array<const char*, 6> random_kind_names = {"URS", "UPS", "RUS", "PUS", "mixture", "two-motors"};
 
 constexpr const char* nameOf(RandomKind kind) { return random_kind_names[static_cast<std::size_t>(kind)]; }
-
-/// The properties of a leg that precede its numbers.
-struct LegRecipe {
-  LegKind kind = LegKind::URS;
-  std::array<bool, 3> actuated = {true, false, false};
-};
-
-/// Returns three to six legs with six motors; for URS it draws no random number. With `other_motors`, motors may drive
-/// any coordinate.
-std::vector<LegRecipe> randomLegs(Dice& dice, RandomKind kind, bool other_motors);
-
-/// "UPS d", or one such text per leg.
-std::string wordsOf(const std::vector<LegRecipe>& legs);
-
-}  // namespace ursula
-
-// The properties of a random scenario. They are drawn before its numbers, so properties that are hard to satisfy are
-// not drawn less often.
-
-namespace ursula {
 
 /// The arrangement of the legs: pairs as in the paper's Table I, six around a ring, or no order. In 3-3 pairs share
 /// points on both sides, in 6-3 only on the platform.
@@ -48,6 +28,8 @@ enum class MotionKind { helix, hold, waypoints, samples };
 enum class Pace { even, tight, abrupt };
 enum class LoadKind { none, constant, table, jumps };
 
+/// The properties of a random scenario. They are drawn before its numbers, so properties that are hard to satisfy are
+/// not drawn less often.
 struct Recipe {
   // units of the machine
   double length = 1;        ///< m
@@ -55,7 +37,7 @@ struct Recipe {
   double acceleration = 1;  ///< m/s²: that of gravity, if there is any
   // machine
   RandomKind kind = RandomKind::URS;
-  std::vector<LegRecipe> legs;
+  std::vector<Leg> legs;  ///< only their kinds and motors
   Arrangement arrangement = Arrangement::paper;
   Axes axes = Axes::tilted;
   bool unequal_links = false;  ///< one link of a leg is up to five times the other
