@@ -20,7 +20,6 @@
 namespace ursula {
 namespace {
 
-using compare_parts::alignQuaternions;
 using compare_parts::isChosen;
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -241,8 +240,9 @@ Comparison compare(const TimeSeries& reference, const TimeSeries& test, const Co
   setTimes(t_reference, t, rounding, out);
   out.skipped = skippedOf(t_reference, t, rounding);
   const std::vector<std::size_t> rows = rowsToCompare(t_reference, t, rounding, options, out);
-  const TimeSeries aligned = alignQuaternions(reference, test, rows);
-  const TimeSeries continuous = alignQuaternions(reference);
+  TimeSeries continuous = reference, aligned = test;
+  compare_parts::makeContinuous(continuous);
+  compare_parts::alignQuaternions(continuous, rows, aligned);
   const auto of_test = byName(aligned), of_reference = byName(reference);
   const std::map<std::string, double> scales = scalesOf(reference);
   for (std::size_t i = 0; i < reference.names.size(); ++i) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "base/output_folder.h"
 #include "report/html_template.h"
@@ -53,18 +54,14 @@ double shareOf(const ChannelComparison& channel) {
 int rank(Verdict verdict) { return verdict == Verdict::fail ? 0 : verdict == Verdict::inconclusive ? 1 : 2; }
 
 /// NaN counts as the worst share.
-bool isWorse(const ChannelComparison& a, const ChannelComparison& b) {
-  if (rank(a.verdict) != rank(b.verdict)) return rank(a.verdict) < rank(b.verdict);
-  const double of_a = shareOf(a), of_b = shareOf(b);
-  if (std::isnan(of_a) || std::isnan(of_b)) return std::isnan(of_a) && !std::isnan(of_b);
-  return of_a > of_b;
-}
-
 std::vector<std::size_t> worstFirst(const std::vector<ChannelComparison>& channels) {
+  const auto place = [&channels](std::size_t k) {
+    const double share = shareOf(channels[k]);
+    return std::tuple(rank(channels[k].verdict), !std::isnan(share), std::isnan(share) ? 0 : -share);
+  };
   std::vector<std::size_t> order(channels.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&channels](std::size_t a, std::size_t b) { return isWorse(channels[a], channels[b]); });
+  std::stable_sort(order.begin(), order.end(), [&place](std::size_t a, std::size_t b) { return place(a) < place(b); });
   return order;
 }
 

@@ -1,17 +1,20 @@
 #include "studies/compare/rotations.h"
 
-#include <array>
-
 #include "studies/compare/history_line.h"
 
 namespace ursula::compare_parts {
 namespace {
 
-using Quaternion = std::array<std::size_t, 4>;  ///< indices of the columns w, x, y, z
-
-std::size_t indexOf(const TimeSeries& series, const std::string& name) {
-  const auto found = std::find(series.names.begin(), series.names.end(), name);
-  return static_cast<std::size_t>(found - series.names.begin());
+/// Returns the columns w, x, y, z of the quaternion; none unless all four exist, which are then compared unchanged.
+template <class Series>
+auto columnsOf(Series& series, const std::string& prefix) {
+  std::vector<decltype(&series.columns[0])> out;
+  for (const char part : {'w', 'x', 'y', 'z'}) {
+    const auto found = std::find(series.names.begin(), series.names.end(), prefix + part);
+    if (found == series.names.end()) return decltype(out)();
+    out.push_back(&series.columns[static_cast<std::size_t>(found - series.names.begin())]);
+  }
+  return out;
 }
 
 std::vector<std::string> prefixes(const TimeSeries& series) {
@@ -22,51 +25,34 @@ std::vector<std::string> prefixes(const TimeSeries& series) {
   return out;
 }
 
-/// Returns false unless all four columns exist; the others are then compared unchanged.
-bool find(const TimeSeries& series, const std::string& prefix, Quaternion& out) {
-  const char* parts = "wxyz";
-  for (std::size_t k = 0; k < 4; ++k) {
-    out[k] = indexOf(series, prefix + parts[k]);
-    if (out[k] == series.names.size()) return false;
-  }
-  return true;
-}
-
-void turnSign(TimeSeries& series, const Quaternion& q, std::size_t row) {
-  for (const std::size_t column : q) series.columns[column][row] *= -1;
+/// Turns the sign of row `row` if its product with `near(k)`, the k-th entry of a near quaternion, is negative.
+template <class Near>
+void turnTo(const Near& near, const std::vector<std::vector<double>*>& q, std::size_t row) {
+  double product = 0;
+  for (std::size_t k = 0; k < q.size(); ++k) product += near(k) * (*q[k])[row];
+  for (std::vector<double>* column : q)
+    if (product < 0) (*column)[row] *= -1;
 }
 
 }  // namespace
 
-TimeSeries alignQuaternions(const TimeSeries& series) {
-  TimeSeries out = series;
+void makeContinuous(TimeSeries& series) {
   for (const std::string& prefix : prefixes(series)) {
-    Quaternion q;
-    if (!find(out, prefix, q)) continue;
-    for (std::size_t row = 1; row < out.columns[q[0]].size(); ++row) {
-      double product = 0;
-      for (const std::size_t column : q) product += out.columns[column][row - 1] * out.columns[column][row];
-      if (product < 0) turnSign(out, q, row);
-    }
+    const auto q = columnsOf(series, prefix);
+    for (std::size_t row = 1; !q.empty() && row < q[0]->size(); ++row)
+      turnTo([&](std::size_t k) { return (*q[k])[row - 1]; }, q, row);
   }
-  return out;
 }
 
-TimeSeries alignQuaternions(const TimeSeries& reference, const TimeSeries& test, const std::vector<std::size_t>& rows) {
-  TimeSeries out = test;
-  const TimeSeries continuous = alignQuaternions(reference);
+void alignQuaternions(const TimeSeries& reference, const std::vector<std::size_t>& rows, TimeSeries& test) {
+  const std::vector<double>&t = *test.find("t_s"), &t_reference = *reference.find("t_s");
   for (const std::string& prefix : prefixes(test)) {
-    Quaternion q, other;
-    if (!find(test, prefix, q) || !find(reference, prefix, other)) continue;
-    for (const std::size_t row : rows) {
-      double product = 0;
-      for (std::size_t k = 0; k < 4; ++k)
-        product += HistoryLine(*reference.find("t_s"), continuous.columns[other[k]]).at((*test.find("t_s"))[row]) *
-                   test.columns[q[k]][row];
-      if (product < 0) turnSign(out, q, row);
-    }
+    const auto q = columnsOf(test, prefix);
+    const auto other = columnsOf(reference, prefix);
+    for (const std::size_t row : rows)
+      if (!q.empty() && !other.empty())
+        turnTo([&](std::size_t k) { return HistoryLine(t_reference, *other[k]).at(t[row]); }, q, row);
   }
-  return out;
 }
 
 bool isChosen(const std::string& column, const std::vector<std::string>& patterns) {

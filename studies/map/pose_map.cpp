@@ -140,7 +140,6 @@ namespace {
 
 constexpr std::size_t rows_of_block = 512;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr double radian = 3.14159265358979323846 / 180;
 
 /// Kinematic results for one pose.
 struct Reached {
@@ -189,7 +188,7 @@ class PoseMap {
     const Reached reached = reachedAt(pose);
     std::size_t column = 0;
     const auto put = [&](double value) { out.columns[column++][row] = value; };
-    for (std::size_t i = 0; i < grid_axes; ++i) put(i < 3 ? at[i] : at[i] * radian);
+    for (std::size_t i = 0; i < grid_axes; ++i) put(i < 3 ? at[i] : at[i] * degree);
     put(reached.reach);
     put(reached.kappa);
     for (const double sine : reached.sines) put(sine);

@@ -41,21 +41,15 @@ class InverseBlocks {
       motions.push_back(scenario_.trajectory->at(instantOf(scenario_.trajectory->duration(), row, samples_)));
       loads.push_back(loadAtP(scenario_.load.get(), motions.back()));
     }
-    return completed(motions, loads);
-  }
-
- private:
-  /// Completes rows in order after the batch, so that the first refused pose is reported.
-  TimeSeries completed(const std::vector<Motion<double>>& motions, const std::vector<Vector6d>& loads) const {
     std::vector<Vector6d> efforts(motions.size());
     std::vector<PoseFault> faults(motions.size());
     batch_.inverseDynamics(motions.data(), motions.size(), efforts.data(), faults.data(), loads.data());
     std::vector<JointMotion> joints;
     joints.reserve(motions.size());
     Workspace<double> work;
-    for (std::size_t k = 0; k < motions.size(); ++k) {
-      if (faults[k] != PoseFault::none) efforts[k] = solver_.inverseDynamics(motions[k], work, loads[k]);
-      solver_.inverseKinematics(motions[k], work);
+    for (std::size_t row = 0; row < motions.size(); ++row) {  // in order, so that the first refused pose is reported
+      if (faults[row] != PoseFault::none) efforts[row] = solver_.inverseDynamics(motions[row], work, loads[row]);
+      solver_.inverseKinematics(motions[row], work);
       joints.push_back({solver_.angles(work), solver_.rates(work), solver_.accelerations(work)});
     }
     TimeSeries series = inverseSeries(*scenario_.manipulator, motions, joints, efforts);
@@ -63,6 +57,7 @@ class InverseBlocks {
     return series;
   }
 
+ private:
   const Scenario& scenario_;
   int samples_;
   Solver<double> solver_;
@@ -70,37 +65,27 @@ class InverseBlocks {
 };
 
 /// Keeps quaternion signs continuous across blocks by the previous row, because each block begins with w >= 0.
-class Turning {
- public:
-  void operator()(TimeSeries& block) {
-    std::array<std::vector<double>*, 4> q{};
-    for (std::size_t i = 0; i < q.size(); ++i)
-      q[i] = &block.columns[static_cast<std::size_t>(std::find(block.names.begin(), block.names.end(), names[i]) -
-                                                     block.names.begin())];
-    double along = 0;
-    for (std::size_t i = 0; i < q.size(); ++i) along += before_[i] * q[i]->front();
-    for (std::size_t i = 0; i < q.size(); ++i) {
-      if (along < 0)
-        for (double& value : *q[i]) value = -value;
-      before_[i] = q[i]->back();
-    }
+void turn(TimeSeries& block, std::array<double, 4>& before) {
+  const auto w = std::find(block.names.begin(), block.names.end(), "q_w") - block.names.begin();  // x, y and z follow
+  double along = 0;
+  for (std::size_t i = 0; i < 4; ++i) along += before[i] * block.columns[static_cast<std::size_t>(w) + i].front();
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::vector<double>& q = block.columns[static_cast<std::size_t>(w) + i];
+    if (along < 0)
+      for (double& value : q) value = -value;
+    before[i] = q.back();
   }
-
- private:
-  static constexpr std::array<const char*, 4> names = {"q_w", "q_x", "q_y", "q_z"};
-  std::array<double, 4> before_{};
-};
+}
 
 }  // namespace
 
 BlockTable inverseBlocks(const Scenario& scenario, int samples) {
   const auto made = std::make_shared<InverseBlocks>(scenario, samples);
-  const auto turning = std::make_shared<Turning>();
   BlockTable table;
   table.rows = static_cast<std::size_t>(samples);
   table.blocks = (table.rows + rows_of_block - 1) / rows_of_block;
   table.make = [made](std::size_t k) { return made->block(k); };
-  table.settle = [turning](TimeSeries& block) { (*turning)(block); };
+  table.settle = [before = std::array<double, 4>{}](TimeSeries& block) mutable { turn(block, before); };
   return table;
 }
 
