@@ -183,7 +183,7 @@ void takeSdfInertial(const Element& link, GraphBody& body, Assumptions& assumpti
                                : "The file gives no inertia: SDF's default of 1 kg·m² was taken",
                            body.name, 1, mass.empty() ? "kg" : "kg·m²"});
   body.center_of_mass = at.translation();
-  body.inertia.setIdentity();
+  body.inertia = at.linear() * at.linear().transpose();
   if (inertia == nullptr) return;
   const auto missing = [&](std::size_t k, const char* name) {
     if (k < 3 && !body.fixed)
