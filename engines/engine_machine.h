@@ -12,7 +12,9 @@ namespace ursula {
 /// Efforts and wrenches add up until the next step.
 class EngineMachine {
  public:
-  explicit EngineMachine(const Manipulator& from) : manipulator(from) {}
+  /// `origin` is that of the platform's body in M.
+  explicit EngineMachine(const Manipulator& from, const Vector3d& origin = Vector3d::Zero())
+      : manipulator(from), origin_(origin) {}
   virtual ~EngineMachine() = default;
   EngineMachine(const EngineMachine&) = delete;
   EngineMachine& operator=(const EngineMachine&) = delete;
@@ -37,14 +39,10 @@ class EngineMachine {
 
   Manipulator manipulator;
 
- protected:
-  /// `origin` is that of the platform's body in M.
-  EngineMachine(const Manipulator& from, const Vector3d& origin) : manipulator(from), origin_(origin) {}
-
  private:
   Vector3d rates(int leg) const { return {rate(leg, 0), rate(leg, 1), rate(leg, 2)}; }
 
-  Vector3d origin_ = Vector3d::Zero();
+  Vector3d origin_;
 };
 
 /// Makes a machine with closed loops at a motion.
