@@ -24,9 +24,8 @@ class Net {
       if (joint.kind == JointKind::fixed || joint.kind == JointKind::free) continue;
       const std::size_t a = groups.group_of[joint.parent], b = groups.group_of[joint.child];
       if (a == b)
-        throw ImportError(fmt::format("joint {}: both of its sides are fixed to body {}, expected two bodies",
-                                      shown(joint.name), shown(groups.groups[a].name)),
-                          joint.line);
+        refuseJoint(joint, fmt::format(": both of its sides are fixed to body {}, expected two bodies",
+                                       shown(groups.groups[a].name)));
       edges_[a].push_back({j, b});
       edges_[b].push_back({j, a});
     }

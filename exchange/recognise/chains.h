@@ -27,6 +27,13 @@ struct Group {
   void add(double mass_of_it, const Vector3d& center, const Matrix3d& inertia_of_it);
 };
 
+/// Throws ImportError: "body NAME", then `what`.
+[[noreturn]] void refuseBody(const Group& group, const std::string& what);
+/// Throws ImportError: "joint NAME", then `what`.
+[[noreturn]] void refuseJoint(const GraphJoint& joint, const std::string& what);
+/// Throws ImportError if a part of the group has no gravity.
+void requireWeight(const Group& group);
+
 /// m ([r]·[r] 1 − r rᵀ)
 Matrix3d pointInertia(double mass, const Vector3d& r);
 

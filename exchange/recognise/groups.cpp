@@ -16,6 +16,18 @@ std::size_t rootOf(std::vector<std::size_t>& parents, std::size_t i) {
 
 }  // namespace
 
+void refuseBody(const Group& group, const std::string& what) {
+  throw ImportError("body " + shown(group.name) + what, group.line);
+}
+
+void refuseJoint(const GraphJoint& joint, const std::string& what) {
+  throw ImportError("joint " + shown(joint.name) + what, joint.line);
+}
+
+void requireWeight(const Group& group) {
+  if (group.weightless) refuseBody(group, " has its gravity switched off, which a scenario has no key for");
+}
+
 Matrix3d pointInertia(double mass, const Vector3d& r) {
   return mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
 }

@@ -148,8 +148,7 @@ class Shaper {
     for (const std::size_t k : tokens) {
       const GraphJoint& joint = graph_.joints[tokens_[k].joint];
       const auto complain = [&](const std::string& why) {
-        throw ImportError(fmt::format("joint {}, {} of the leg of {}, {}", shown(joint.name), what, shape_.place, why),
-                          joint.line);
+        refuseJoint(joint, fmt::format(", {} of the leg of {}, {}", what, shape_.place, why));
       };
       if (joint.driven) complain("is driven, expected a motor on a coordinate of the leg");
       if (joint.damping != 0 || joint.friction != 0)

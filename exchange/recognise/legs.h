@@ -82,8 +82,7 @@ Stroke strokeOf(const LegTask& task, const Primitive& slide, const Vector3d& alo
 
 /// Returns a physically possible tensor if only the rounding of the file's digits makes it impossible. With
 /// `line_may_be_zero` the third entry may be zero. Throws ImportError for larger errors.
-Matrix3d snapped(const Matrix3d& inertia, double rounding, bool line_may_be_zero, const std::string& body, int line,
-                 Assumptions& assumptions);
+Matrix3d snapped(const Matrix3d& inertia, bool line_may_be_zero, const Group& body, Assumptions& assumptions);
 
 /// Combines bodies into one link. `frame` is in the world, with its origin at the link's first end; its axis `line` is
 /// along it.

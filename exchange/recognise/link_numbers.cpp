@@ -38,11 +38,10 @@ void takeCoordinate(const GraphJoint& from, Coordinate coordinate, std::size_t k
   leg.rotor_inertia.on(coordinate) = from.rotor_inertia;
   if (from.driven) leg.motors.push_back(from.name);
   if (from.rotor_inertia != 0 && !from.driven)
-    throw ImportError(
-        fmt::format("joint {} has a rotor's inertia of {} (armature) and is not driven, which a scenario "
-                    "has no key for; without it, in the file and in your engine, the machine can be taken",
-                    shown(from.name), from.rotor_inertia),
-        from.line);
+    refuseJoint(from,
+                fmt::format(" has a rotor's inertia of {} (armature) and is not driven, which a scenario "
+                            "has no key for; without it, in the file and in your engine, the machine can be taken",
+                            from.rotor_inertia));
   if (from.friction != 0 && from.smoothing_speed > 0)
     leg.smoothing_speed = from.smoothing_speed;
   else if (from.friction != 0)
@@ -72,33 +71,28 @@ CommonPerpendicular commonPerpendicular(const Vector3d& p, const Vector3d& along
   return out;
 }
 
-Matrix3d snapped(const Matrix3d& inertia, double rounding, bool line_may_be_zero, const std::string& body, int line,
-                 Assumptions& assumptions) {
+Matrix3d snapped(const Matrix3d& inertia, bool line_may_be_zero, const Group& body, Assumptions& assumptions) {
   const Matrix3d symmetric = (inertia + inertia.transpose()) / 2;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(symmetric);
   Vector3d m = principal.eigenvalues();
   // One digit, as of 1e5, would leave open what it likes.
   const double noise = 256 * eps * m.cwiseAbs().maxCoeff(),
-               slack = std::min(3 * rounding, most_of_the_digits * m.cwiseAbs().maxCoeff()) + noise;
+               slack = std::min(3 * body.inertia_rounding, most_of_the_digits * m.cwiseAbs().maxCoeff()) + noise;
   const bool line_is_zero = line_may_be_zero && std::abs(symmetric(2, 2)) <= noise;
   if (!(m(0) > noise) && !line_is_zero)
-    throw ImportError(fmt::format("body {}: principal moments of inertia {}, expected all of them above zero",
-                                  shown(body), moments(m)),
-                      line);
+    refuseBody(body, fmt::format(": principal moments of inertia {}, expected all of them above zero", moments(m)));
   const double excess = m(2) - m(1) - std::max(m(0), 0.0);
   if (excess <= 8 * eps * m(2) && !line_is_zero) return symmetric;
   // A turned tensor has rounding where a thin rod has zero.
   if (excess <= noise && line_is_zero) return ((m(1) + m(2)) / 2 * Vector3d(1, 1, 0)).asDiagonal();
   if (!(excess <= slack))
-    throw ImportError(
-        fmt::format("body {}: principal moments of inertia {}: the largest exceeds the sum of the others by "
-                    "{:.3g}, more than the file's digits leave open ({:.1g})",
-                    shown(body), moments(m), excess, slack),
-        line);
+    refuseBody(body, fmt::format(": principal moments of inertia {}: the largest exceeds the sum of the others by "
+                                 "{:.3g}, more than the file's digits leave open ({:.1g})",
+                                 moments(m), excess, slack));
   assumptions.push_back(
       {"The largest principal moment exceeded the sum of the others, by the file's digits; all three "
        "were moved by a third of that",
-       body, excess, "kg·m²"});
+       body.name, excess, "kg·m²"});
   m += excess / 3 * Vector3d(1, 1, -1);
   const Matrix3d out = principal.eigenvectors() * m.asDiagonal() * principal.eigenvectors().transpose();
   return (out + out.transpose()) / 2;
@@ -107,13 +101,8 @@ Matrix3d snapped(const Matrix3d& inertia, double rounding, bool line_may_be_zero
 Link linkOf(const LegTask& task, const Group& link, const Eigen::Isometry3d& frame, int line, double length,
             bool line_may_be_zero) {
   if (!(link.mass > 0))
-    throw ImportError(fmt::format("body {}, a link of the leg of {}, has no mass, expected one above zero",
-                                  shown(link.name), task.shape.place),
-                      link.line);
-  if (link.weightless)
-    throw ImportError(
-        fmt::format("body {} has its gravity switched off, which a scenario has no key for", shown(link.name)),
-        link.line);
+    refuseBody(link, fmt::format(", a link of the leg of {}, has no mass, expected one above zero", task.shape.place));
+  requireWeight(link);
   Link out;
   out.length = length;
   out.mass = link.mass;
@@ -122,7 +111,7 @@ Link linkOf(const LegTask& task, const Group& link, const Eigen::Isometry3d& fra
   out.inertia = turn.transpose() * link.inertia * turn;
   out.inertia = ((out.inertia + out.inertia.transpose()) / 2).eval();
   cleanRounding(out.inertia, center, link.mass, task.size);
-  out.inertia = snapped(out.inertia, link.inertia_rounding, line_may_be_zero, link.name, link.line, task.assumptions);
+  out.inertia = snapped(out.inertia, line_may_be_zero, link, task.assumptions);
   out.center_of_mass = std::exchange(center(line), 0);
   out.off_line = center;
   return out;
@@ -136,12 +125,11 @@ void freeSpin(const LegTask& task, const Group& body, const Eigen::Isometry3d& f
       {std::abs(local(0, 0) - local(1, 1)), std::abs(local(0, 1)), std::abs(local(0, 2)), std::abs(local(1, 2))});
   const double share = largest > 0 ? unequal / largest : 0;
   if (!(off <= task.choices.tolerance * task.size) || !(share <= task.choices.tolerance))
-    throw ImportError(
-        fmt::format("body {} spins freely about the line of its leg, of {}: its transverse moments differ by "
-                    "{:.3g} of the largest and its mass centre is {:.3g} m off the line, expected equal ones "
-                    "and a mass centre on the line",
-                    shown(body.name), task.shape.place, share, off),
-        body.line);
+    refuseBody(body,
+               fmt::format(" spins freely about the line of its leg, of {}: its transverse moments differ by {:.3g} of "
+                           "the largest and its mass centre is {:.3g} m off the line, expected equal ones and a mass "
+                           "centre on the line",
+                           task.shape.place, share, off));
   if (share > worth_saying)
     task.assumptions.push_back(
         {"This freely spinning body is assumed to be round; its moments differ by this share", body.name, share, "1"});
@@ -170,18 +158,13 @@ void lumpCrosses(const LegTask& task, const Vector3d& base_point, Group& proxima
   for (const Cross& cross : task.shape.crosses) {
     const Group& group = task.groups.groups[cross.group];
     if (group.isFrame()) continue;
-    if (group.weightless)
-      throw ImportError(
-          fmt::format("body {} has its gravity switched off, which a scenario has no key for", shown(group.name)),
-          group.line);
+    requireWeight(group);
     const double share = std::max(largestMoment(group.inertiaAbout(cross.centre)) / leg_moment,
                                   group.mass * (group.center_of_mass - cross.centre).norm() / leg_weight);
     if (!(share <= task.choices.lump))
-      throw ImportError(
-          fmt::format("body {}, between the hinges of one joint of the leg of {}, has {:.3g} of the leg's "
-                      "moments, which would be lost, expected at most {:g} (--lump)",
-                      shown(group.name), task.shape.place, share, task.choices.lump),
-          group.line);
+      refuseBody(group, fmt::format(", between the hinges of one joint of the leg of {}, has {:.3g} of the leg's "
+                                    "moments, which would be lost, expected at most {:g} (--lump)",
+                                    task.shape.place, share, task.choices.lump));
     const bool at_base = cross.rides == Cross::Rides::base, at_platform = cross.rides == Cross::Rides::platform;
     if (at_platform) task.of_platform.add(group.mass, cross.centre, Matrix3d::Zero());
     if (!at_base && !at_platform) proximal.add(group.mass, cross.centre, Matrix3d::Zero());

@@ -142,9 +142,7 @@ class Recogniser {
         if (used.insert(p.joint).second && graph_.joints[p.joint].driven) ++driven;
     for (std::size_t j = 0; j < graph_.joints.size(); ++j)
       if (graph_.joints[j].driven && used.count(j) == 0)
-        throw ImportError(fmt::format("joint {} is driven and is not of a leg, expected motors of the legs alone",
-                                      shown(graph_.joints[j].name)),
-                          graph_.joints[j].line);
+        refuseJoint(graph_.joints[j], " is driven and is not of a leg, expected motors of the legs alone");
     if (driven == 6) return;
     std::vector<std::string> names, usual;
     for (const LegShape& shape : shapes) {
@@ -163,18 +161,14 @@ class Recogniser {
   std::string upper() const { return graph_.format == "urdf" ? "URDF" : graph_.format == "sdf" ? "SDF" : "the file"; }
 
   void takePlatform(const Group& platform, const Eigen::Isometry3d& B, const Eigen::Isometry3d& M) {
-    if (platform.weightless)
-      throw ImportError(
-          fmt::format("body {} has its gravity switched off, which a scenario has no key for", shown(platform.name)),
-          platform.line);
+    requireWeight(platform);
     if (!(platform.mass > 0))
       throw ImportError(fmt::format("the platform, {}, has no mass, expected one above zero", shown(platform.name)),
                         platform.line);
     machine_.gravity = B.linear().transpose() * graph_.gravity;
     const Matrix3d local = M.linear().transpose() * platform.inertia * M.linear();
-    machine_.of_platform = {
-        platform.mass, M.inverse() * platform.center_of_mass,
-        snapped(local, platform.inertia_rounding, false, platform.name, platform.line, machine_.assumptions)};
+    machine_.of_platform = {platform.mass, M.inverse() * platform.center_of_mass,
+                            snapped(local, false, platform, machine_.assumptions)};
     const Eigen::Isometry3d pose = B.inverse() * M;
     machine_.initial.p = pose.translation();
     machine_.initial.Q = pose.linear();

@@ -37,9 +37,6 @@ struct TreeBody {
 /// Limbs of the graph's tree, in the order of their children. Massless bodies count as frames.
 std::vector<TreeBody> treeBodiesOf(const ModelGraph& graph);
 
-/// Returns the joint that carries `body` in the tree; null for the base.
-const GraphJoint* carrierOf(const ModelGraph& graph, std::size_t body);
-
 /// Returns the scenario's machine at the first instant of its motion: a base, the legs' links and the platform. A
 /// massless cross joins two consecutive turning coordinates. The first leg carries the platform by a ball; balls close
 /// the loops of the others. Throws UnreachablePose.

@@ -173,15 +173,16 @@ class Builder {
   std::vector<std::pair<std::size_t, Vector3d>> tips_;  ///< the last body of each leg, and the position of its end
 };
 
-}  // namespace
-
-MachineModel modelOf(const Scenario& scenario) { return Builder(scenario).take(); }
-
+/// Returns the joint that carries `body` in the tree; null for the base.
 const GraphJoint* carrierOf(const ModelGraph& graph, std::size_t body) {
   const auto found = std::find_if(graph.joints.begin(), graph.joints.end(),
                                   [body](const GraphJoint& joint) { return !joint.closure && joint.child == body; });
   return found == graph.joints.end() ? nullptr : &*found;
 }
+
+}  // namespace
+
+MachineModel modelOf(const Scenario& scenario) { return Builder(scenario).take(); }
 
 std::vector<TreeBody> treeBodiesOf(const ModelGraph& graph) {
   std::vector<TreeBody> out;
