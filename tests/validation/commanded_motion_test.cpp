@@ -4,33 +4,24 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 
 #include "model/exact_trajectory.h"
 #include "model/trajectories/trajectories.h"
 #include "studies/random/random_scenario.h"
+#include "tests/support/numbers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 
 namespace ursula {
 namespace {
 
-std::vector<std::string> shipped() {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(URSULA_SCENARIOS))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 class CommandedMotion : public testing::TestWithParam<std::string> {};
 
 /// Roundings never reach a third of a limit, because limits hold for the worst case.
 TEST_P(CommandedMotion, isRightWithAMargin) {
-  const Scenario scenario = readScenario(std::string(URSULA_SCENARIOS) + "/" + GetParam() + ".toml");
+  const Scenario scenario = scenarioOf(GetParam());
   const std::vector<Check> checks = judgeCommandedMotion(scenario);
   EXPECT_EQ(others(checks, Verdict::pass), "");
   for (const Check& check : checks) {
@@ -42,8 +33,7 @@ TEST_P(CommandedMotion, isRightWithAMargin) {
   EXPECT_EQ(findCheck(checks, "motion.load") != nullptr, scenario.load != nullptr);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, CommandedMotion, testing::ValuesIn(shipped()),
-                         [](const auto& name) { return asTestName(name.param); });
+INSTANTIATE_TEST_SUITE_P(Shipped, CommandedMotion, testing::ValuesIn(shippedScenarios()), byName);
 
 TEST(CommandedMotionOfRandomMachines, passes) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -53,31 +43,49 @@ TEST(CommandedMotionOfRandomMachines, passes) {
   }
 }
 
-/// A trajectory whose double motion is falsified; the 50-digit one stays right.
-class Faulty final : public ExactTrajectory {
+using Fault = std::function<void(Motion<double>&)>;
+
+/// A trajectory whose double motion is falsified.
+template <class Base>
+class FaultyDoubles : public Base {
  public:
-  using InjectedFault = std::function<void(Motion<double>&)>;
-  Faulty(std::shared_ptr<const Trajectory> truth, InjectedFault fault)
+  explicit FaultyDoubles(std::shared_ptr<const Trajectory> truth, Fault fault = nullptr)
       : truth_(std::move(truth)), fault_(std::move(fault)) {}
   std::string kind() const override { return truth_->kind(); }
   double duration() const override { return truth_->duration(); }
   Motion<double> at(double t) const override {
     Motion<double> motion = truth_->at(t);
-    fault_(motion);
+    if (fault_) fault_(motion);
     return motion;
   }
-  Motion<Real50> at(const Real50& t) const override { return truth_->at(t); }
   const std::vector<double>& knots() const override { return truth_->knots(); }
-  HiddenTerms hiddenTerms() const override { return truth_->exact()->hiddenTerms(); }
 
- private:
+ protected:
   std::shared_ptr<const Trajectory> truth_;
-  InjectedFault fault_;
+  Fault fault_;
 };
+
+/// The 50-digit motion stays right.
+class Faulty final : public FaultyDoubles<ExactTrajectory> {
+ public:
+  using FaultyDoubles::at;
+  using FaultyDoubles::FaultyDoubles;
+  Motion<Real50> at(const Real50& t) const override { return truth_->at(t); }
+  HiddenTerms hiddenTerms() const override { return truth_->exact()->hiddenTerms(); }
+};
+
+/// A user's trajectory in doubles alone, which is judged by differences of doubles.
+using InDoubles = FaultyDoubles<Trajectory>;
+
+void expectOnlyOneFails(const std::vector<Check>& checks, const std::string& caught_by) {
+  for (const Check& check : checks)
+    EXPECT_EQ(name(check.verdict), std::string(check.name == caught_by ? "fail" : "pass"))
+        << check.name << ": " << check.why;
+}
 
 struct Control {
   const char *name, *scenario, *caught_by;
-  Faulty::InjectedFault fault;
+  Fault fault;
 };
 
 class FaultyMotion : public testing::TestWithParam<Control> {};
@@ -85,13 +93,8 @@ class FaultyMotion : public testing::TestWithParam<Control> {};
 TEST_P(FaultyMotion, failsTheCheckThatIsForIt) {
   Scenario scenario = scenarioOf(GetParam().scenario);
   scenario.trajectory = std::make_shared<const Faulty>(scenario.trajectory, GetParam().fault);
-  for (const Check& check : judgeCommandedMotion(scenario)) {
-    const bool wanted = check.name == GetParam().caught_by;
-    EXPECT_EQ(name(check.verdict), std::string(wanted ? "fail" : "pass")) << check.name << ": " << check.why;
-  }
+  expectOnlyOneFails(judgeCommandedMotion(scenario), GetParam().caught_by);
 }
-
-const double nan_value = std::nan("");
 
 INSTANTIATE_TEST_SUITE_P(
     By, FaultyMotion,
@@ -109,14 +112,45 @@ INSTANTIATE_TEST_SUITE_P(
         Control{"Q_transposed", "waypoints", "motion.pose", [](auto& m) { m.Q.transposeInPlace(); }},
         Control{"Q_left_handed", "hold", "motion.pose", [](auto& m) { m.Q.col(0) *= -1; }},
         Control{"position", "hold", "motion.pose", [](auto& m) { m.p.z() *= 1 + 1e-13; }},
-        Control{"position_is_no_number", "hold", "motion.pose", [](auto& m) { m.p.x() = nan_value; }},
-        Control{"Q_is_no_number", "helix-1s", "motion.pose", [](auto& m) { m.Q(1, 2) = nan_value; }},
+        Control{"position_is_no_number", "hold", "motion.pose", [](auto& m) { m.p.x() = nan; }},
+        Control{"Q_is_no_number", "helix-1s", "motion.pose", [](auto& m) { m.Q(1, 2) = nan; }},
         Control{"velocity_is_no_number", "waypoints", "motion.twist",
                 [](auto& m) {
-                  if (m.t > 1 && m.t < 1.4) m.p_dot.x() = nan_value;
+                  if (m.t > 1 && m.t < 1.4) m.p_dot.x() = nan;
                 }},
-        Control{"alpha_is_no_number", "samples", "motion.twist_rate", [](auto& m) { m.omega_dot.z() = nan_value; }}),
+        Control{"alpha_is_no_number", "samples", "motion.twist_rate", [](auto& m) { m.omega_dot.z() = nan; }}),
     [](const auto& control) { return std::string(control.param.name); });
+
+class MotionInDoubles : public testing::TestWithParam<const char*> {};
+
+TEST_P(MotionInDoubles, isRightWithAMargin) {
+  const InDoubles trajectory(scenarioOf(GetParam()).trajectory);
+  EXPECT_EQ(trajectory.exact(), nullptr);
+  const std::vector<Check> checks = judgeTrajectory(trajectory, 1.5, {});
+  EXPECT_EQ(checks.size(), 3U);
+  for (const Check& check : checks) EXPECT_LE(check.value, check.limit / 3) << check.name << ": " << check.why;
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, MotionInDoubles,
+                         testing::Values("paper-helix", "helix-0.3s", "helix-60s", "waypoints", "samples", "hold"),
+                         byName);
+
+TEST(MotionInDoublesAlone, failsTheCheckThatIsForItsFault) {
+  const std::pair<const char*, Fault> faults[] = {{"motion.twist", [](auto& m) { m.p_dot *= 1 + 1e-7; }},
+                                                  {"motion.twist", [](auto& m) { m.omega *= 1 + 1e-7; }},
+                                                  {"motion.twist_rate", [](auto& m) { m.p_ddot *= 1 + 1e-5; }},
+                                                  {"motion.twist_rate", [](auto& m) { m.omega_dot *= 1 + 1e-5; }},
+                                                  {"motion.pose", [](auto& m) { m.Q *= 1 + 1e-14; }},
+                                                  {"motion.twist", [](auto& m) { m.omega.x() = nan; }}};
+  for (const auto& [caught_by, fault] : faults)
+    for (const char* scenario : {"paper-helix", "waypoints"})
+      expectOnlyOneFails(judgeTrajectory(InDoubles(scenarioOf(scenario).trajectory, fault), 1.5, {}), caught_by);
+}
+
+TEST(MotionInDoublesAlone, isNotAskedForFiftyDigits) {
+  const InDoubles trajectory(scenarioOf("hold").trajectory);
+  EXPECT_THROW(static_cast<const Trajectory&>(trajectory).at(Real50(0)), std::logic_error);
+}
 
 /// Rounding alone never fails a motion that is steep, slow, far from rest at its ends, or has many turns or uneven
 /// waypoints.

@@ -18,7 +18,6 @@ ursula_test_suites(witness_tests)
 add_executable(commanded_tests
   commanded_motion_test.cpp
   load_check_test.cpp
-  motion_in_doubles_test.cpp
 )
 target_link_libraries(commanded_tests PRIVATE test_support test_components fmt::fmt GTest::gmock GTest::gtest_main)
 target_compile_definitions(commanded_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
