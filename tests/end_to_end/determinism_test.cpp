@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <regex>
 
 #include "tests/end_to_end/quick_runs.h"
@@ -14,16 +15,16 @@ namespace fs = std::filesystem;
 using Files = std::map<std::string, std::string>;
 using testing::HasSubstr;
 
-const std::string random_sweep = massSweep("one.toml", "what = \"inverse\"\ncount = 60\nseed = 1\nsamples = 5\n");
+const std::string random_sweep = massSweep("one.toml", "what = \"inverse\"\ncount = 30\nseed = 1\nsamples = 5\n");
 
 /// Calls every verb that writes results, into the folder `out`; $1 is the number of --jobs.
 constexpr const char* all_verbs = R"(set -e
 rm -rf out && mkdir out
 "$URSULA" validate one.toml --jobs $1 --out out/one >out/said.one
 "$URSULA" validate one.toml two.toml --jobs $1 --out out/suite >out/said.suite
-"$URSULA" inverse one.toml --samples 2001 --jobs $1 --out out/inverse.csv
-"$URSULA" inverse one.toml --samples 2001 --jobs $1 --format binary --out out/inverse.bin
-"$URSULA" map one.toml --x=-0.1,0.1,40 --y=-0.1,0.1,40 --jobs $1 --out out/map.csv --picture out/map.svg
+"$URSULA" inverse one.toml --samples 501 --jobs $1 --out out/inverse.csv
+"$URSULA" inverse one.toml --samples 501 --jobs $1 --format binary --out out/inverse.bin
+"$URSULA" map one.toml --x=-0.1,0.1,20 --y=-0.1,0.1,20 --jobs $1 --out out/map.csv --picture out/map.svg
 "$URSULA" poses one.toml --samples 200 --out out/poses.csv
 "$URSULA" simulate one.toml --torques torques.csv --out out/simulate.csv
 for sweep in random pointwise; do
@@ -67,7 +68,7 @@ void write(const fs::path& folder, const std::string& scenario, const std::strin
   put("two.toml", second);
   put("random.toml", random_sweep);
   const std::string pointwise = replaced(replaced(random_sweep, "inverse", "validate"), "random", "sobol");
-  put("pointwise.toml", "pointwise = true\n" + replaced(pointwise, "count = 60", "count = 8"));
+  put("pointwise.toml", "pointwise = true\n" + replaced(pointwise, "count = 30", "count = 8"));
   put("all.sh", all_verbs);
 }
 
@@ -106,71 +107,76 @@ std::vector<std::string> differing(const Files& a, const Files& b) {
   return names;
 }
 
-TEST(Determinism, ofAnyNumberOfJobs) {
-  const Program ursula;
-  const Inputs inputs(ursula);
-  const Files of_one = inputs.results(1);
+/// The results that others are compared with are made once.
+class Determinism : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (ursula_) return;
+    ursula_ = std::make_unique<Program>();
+    inputs_ = std::make_unique<Inputs>(*ursula_);
+    first_ = inputs_->results(2);
+  }
+  static void TearDownTestSuite() { inputs_.reset(), ursula_.reset(); }
+
+  static inline std::unique_ptr<Program> ursula_;
+  static inline std::unique_ptr<Inputs> inputs_;
+  static inline Files first_;
+};
+
+TEST_F(Determinism, ofAnyNumberOfJobs) {
   for (const char* file :
        {"one/summary.json", "one/timeseries.csv", "one/report.html", "one/junit.xml", "suite/suite.json",
         "suite/index.html", "suite/junit.xml", "suite/two/report.html", "random/report.html"})
-    EXPECT_EQ(of_one.count(file), 1U) << file;
-  EXPECT_EQ(differing(of_one, inputs.results(2)), std::vector<std::string>{});
-  EXPECT_EQ(differing(of_one, inputs.results(7)), std::vector<std::string>{});
+    EXPECT_EQ(first_.count(file), 1U) << file;
+  for (const int jobs : {1, 7}) EXPECT_EQ(differing(first_, inputs_->results(jobs)), std::vector<std::string>{});
 }
 
 /// Control: legs that are a hundredth longer, and another seed, must make a difference.
-TEST(Determinism, isNotThatNothingIsSeen) {
-  const Program ursula;
-  const Inputs inputs(ursula), longer(ursula, "longer", "length = 1.313");
-  const Files first = inputs.results(2);
-  const std::vector<std::string> changed = differing(first, longer.results(2));
-  for (const auto& [name, content] : first) {
+TEST_F(Determinism, isNotThatNothingIsSeen) {
+  const Inputs longer(*ursula_, "longer", "length = 1.313");
+  const std::vector<std::string> changed = differing(first_, longer.results(2));
+  for (const auto& [name, content] : first_) {
     if (name.find("said.") == 0) continue;
     EXPECT_THAT(changed, testing::Contains(name));
   }
-  std::ofstream(inputs.path() / "random.toml") << replaced(random_sweep, "seed = 1", "seed = 2");
-  ASSERT_EQ(inputs.in("\"$URSULA\" sweep random.toml --db 2.db >log 2>&1 && \"$URSULA\" sweep report 2.db --csv 2.csv"),
+  std::ofstream(inputs_->path() / "2.toml") << replaced(random_sweep, "seed = 1", "seed = 2");
+  ASSERT_EQ(inputs_->in("\"$URSULA\" sweep 2.toml --db 2.db >log 2>&1 && \"$URSULA\" sweep report 2.db --csv 2.csv"),
             0);
-  EXPECT_NE(TemporaryFolder::read(inputs.path() / "2.csv"), first.at("random.csv"));
+  EXPECT_NE(TemporaryFolder::read(inputs_->path() / "2.csv"), first_.at("random.csv"));
 }
 
 /// The time zone of Kiritimati, UTC+14, as a rule that needs no installed time zones.
 constexpr const char* kiritimati = "TZ='<+14>-14'";
 
-TEST(Determinism, ofAnyFolderAndTimeZone) {
-  const Program ursula;
-  const Inputs inputs(ursula), others(ursula, "some where/else, with a longer name");
-  const Files first = inputs.results(2);
-  EXPECT_EQ(differing(first, others.results(2)), std::vector<std::string>{});
-  for (const auto& [name, content] : first)
-    EXPECT_EQ(content.find(ursula.folder().string()), std::string::npos) << name << " tells where it was made";
+TEST_F(Determinism, ofAnyFolderAndTimeZone) {
+  const Inputs others(*ursula_, "some where/else, with a longer name");
+  EXPECT_EQ(differing(first_, others.results(2)), std::vector<std::string>{});
+  for (const auto& [name, content] : first_)
+    EXPECT_EQ(content.find(ursula_->folder().string()), std::string::npos) << name << " tells where it was made";
   const std::string before = utcNow();
-  EXPECT_EQ(differing(first, inputs.results(2, kiritimati)), std::vector<std::string>{});
+  EXPECT_EQ(differing(first_, inputs_->results(2, kiritimati)), std::vector<std::string>{});
   const std::string after = utcNow();
-  const std::string started = startSaidBy(inputs.path() / "out/one/junit.xml");
+  const std::string started = startSaidBy(inputs_->path() / "out/one/junit.xml");
   EXPECT_LE(before, started);
   EXPECT_LE(started, after) << "of UTC, too";
-  ASSERT_EQ(inputs.in(std::string("env ") + kiritimati + " date +%z >zone"), 0);
-  EXPECT_EQ(TemporaryFolder::read(inputs.path() / "zone"), "+1400\n") << "or nothing was tried";
+  ASSERT_EQ(inputs_->in(std::string("env ") + kiritimati + " date +%z >zone"), 0);
+  EXPECT_EQ(TemporaryFolder::read(inputs_->path() / "zone"), "+1400\n") << "or nothing was tried";
 }
 
 constexpr const char* commas = "LC_NUMERIC\ndecimal_point \",\"\nthousands_sep \".\"\ngrouping 3;3\nEND LC_NUMERIC\n";
 
-TEST(Determinism, ofALocaleWithDecimalCommas) {
-  const Program ursula;
-  const Inputs inputs(ursula);
-  ursula.write("commas", commas);
+TEST_F(Determinism, ofALocaleWithDecimalCommas) {
+  ursula_->write("commas", commas);
   const std::string shim = "LD_PRELOAD='" URSULA_WORLD_SHIM "' SHIM_DECIMAL_POINT=, ";
   const std::string there = shim + "LOCPATH=\"$PWD/..\" LC_ALL=xx_XX";
-  inputs.in("cd .. && localedef -c -i commas -f ANSI_X3.4-1968 --no-archive ./xx_XX >localedef.log 2>&1");
-  if (inputs.in("env " + there + " true") != 0)
-    GTEST_SKIP() << "localedef makes no locale: " << TemporaryFolder::read(ursula.folder() / "localedef.log");
-  EXPECT_EQ(inputs.in("env " + there + " printf %.1f 1.5 >number"), 0);
-  EXPECT_EQ(TemporaryFolder::read(inputs.path() / "number"), "1,5") << "or nothing is tried";
-  EXPECT_EQ(inputs.in("env " + shim + " LC_ALL=C true"), 99) << "or the shim takes no locale";
-  const Files plain = inputs.results(2);
-  EXPECT_EQ(differing(plain, inputs.results(2, there)), std::vector<std::string>{});
-  EXPECT_THAT(plain.at("inverse.csv"), HasSubstr("."));
+  inputs_->in("cd .. && localedef -c -i commas -f ANSI_X3.4-1968 --no-archive ./xx_XX >localedef.log 2>&1");
+  if (inputs_->in("env " + there + " true") != 0)
+    GTEST_SKIP() << "localedef makes no locale: " << TemporaryFolder::read(ursula_->folder() / "localedef.log");
+  EXPECT_EQ(inputs_->in("env " + there + " printf %.1f 1.5 >number"), 0);
+  EXPECT_EQ(TemporaryFolder::read(inputs_->path() / "number"), "1,5") << "or nothing is tried";
+  EXPECT_EQ(inputs_->in("env " + shim + " LC_ALL=C true"), 99) << "or the shim takes no locale";
+  EXPECT_EQ(differing(first_, inputs_->results(2, there)), std::vector<std::string>{});
+  EXPECT_THAT(first_.at("inverse.csv"), HasSubstr("."));
 }
 
 }  // namespace

@@ -50,23 +50,17 @@ TEST(EnginesVerb, refusesWhatItCannotDo) {
     return text.replace(at, text.find(']', at) + 1 - at, "position = [0.0, 0.0, 90.0]");
   }());
   ursula.write("file", "mine");
-  const std::vector<std::pair<std::string, std::string>> wrong = {
-      {quick + "--engine havok", "'havok', expected one of Simbody, maximal coordinates, MuJoCo, DART"},
-      {quick + "--samples 1", "--samples"},
-      {quick + "--seconds 0", "--seconds"},
-      {quick + "--seconds nan", "--seconds"},
-      {quick + "--out file", "file"},
-      {"engines broken.toml --out out", "broken.toml:2"},
-      {"engines nowhere.toml --out out", "nowhere.toml"},
-      {"engines far.toml --out out", "the motion cannot be made"},
-  };
-  for (const auto& [arguments, words] : wrong) {
-    const UrsulaRun run = ursula(arguments);
-    EXPECT_EQ(run.exit_code, 2) << arguments;
-    EXPECT_EQ(run.out, "") << arguments;
-    EXPECT_THAT(run.err, HasSubstr(words)) << arguments;
-  }
-  EXPECT_EQ(ursula.files(), 3u) << "nothing is half written";
+  expectRefused(ursula,
+                {
+                    {quick + "--engine havok", "'havok', expected one of Simbody, maximal coordinates, MuJoCo, DART"},
+                    {quick + "--samples 1", "--samples"},
+                    {quick + "--seconds 0", "--seconds"},
+                    {quick + "--seconds nan", "--seconds"},
+                    {quick + "--out file", "file"},
+                    {"engines broken.toml --out out", "broken.toml:2"},
+                    {"engines nowhere.toml --out out", "nowhere.toml"},
+                    {"engines far.toml --out out", "the motion cannot be made"},
+                });
 }
 
 }  // namespace

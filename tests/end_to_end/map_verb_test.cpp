@@ -76,7 +76,7 @@ TEST(Map, saysWhatIsOutOfReachAndDrawsItGrey) {
 
 TEST(Map, refusesGridsThatCannotBe) {
   const Program ursula;
-  const std::vector<std::pair<std::string, std::string>> wrong = {
+  Refusals wrong = {
       {"--x 0,1 --y 0,1,2", "2 numbers, expected FROM,TO,COUNT or one value"},
       {"--x 0,nan,5 --y 0,1,2", "'nan' is not a finite number"},
       {"--x 0,1,0 --y 0,1,2", "a count of 0, expected a whole number of 1 or more"},
@@ -88,12 +88,8 @@ TEST(Map, refusesGridsThatCannotBe) {
       {"--x 0,1,100000 --y 0,1,100000", "more than 100 million poses"},
       {"--x 0,1,2000 --y 0,1,2000 --picture p.svg", "4000000 poses, expected at most 1000000"},
       {"--x 0,1,2 --y 0,1,2 --at 9", "--at 9: expected an instant of the motion, from 0 to 3 s"}};
-  for (const auto& [arguments, said] : wrong) {
-    const UrsulaRun run = ursula("map " + helix + " --out map.csv " + arguments);
-    EXPECT_EQ(run.exit_code, 2) << arguments;
-    EXPECT_THAT(run.err, HasSubstr(said)) << arguments;
-  }
-  EXPECT_EQ(ursula.files(), 0u);
+  for (auto& [call, says] : wrong) call.insert(0, "map " + helix + " --out map.csv ");
+  expectRefused(ursula, wrong);
 }
 
 }  // namespace

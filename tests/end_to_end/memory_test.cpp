@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr int passed = 0, in_error_of_suite = 1, refused = 2, in_error_of_sweep = 3;
-constexpr int limits[] = {700, 250, 150, 80, 60};  // MB
+constexpr int limits[] = {250, 150, 80, 60};  // MB
 
 /// Runs under a limit. If a signal ends the program, the shell's exit code is 128 or more.
 int limited(const Program& ursula, int megabytes, const std::string& arguments) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gmock/gmock.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
@@ -70,5 +71,20 @@ class Program {
  private:
   TemporaryFolder folder_;
 };
+
+using Refusals = std::vector<std::pair<std::string, std::string>>;
+
+/// Expects of each call that it ends with 2, says this on standard error, prints nothing and leaves no further file.
+inline void expectRefused(const Program& ursula, const Refusals& calls) {
+  const std::size_t before = ursula.files();
+  for (const auto& [call, says] : calls) {
+    const UrsulaRun run = ursula(call);
+    EXPECT_EQ(run.exit_code, 2) << call;
+    EXPECT_THAT(run.err, testing::HasSubstr(says)) << call;
+    EXPECT_NE(run.err, "") << call;
+    EXPECT_EQ(run.out, "") << call;
+    EXPECT_EQ(ursula.files(), before) << call << " has written";
+  }
+}
 
 }  // namespace ursula

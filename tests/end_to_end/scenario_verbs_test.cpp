@@ -30,9 +30,7 @@ TEST(Init, writesAScenarioThatPassesTheCheckAndCanBeComputed) {
 TEST(Init, neverOverwrites) {
   const Program ursula;
   ursula.write("mine.toml", "mine");
-  const UrsulaRun run = ursula("init mine.toml");
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("mine.toml exists, expected the name of a new file"));
+  expectRefused(ursula, {{"init mine.toml", "mine.toml exists, expected the name of a new file"}});
   EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "mine.toml"), "mine");
 }
 
@@ -81,11 +79,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, InitKind, testing::Values("UPS", "RUS", "PUS"),
 
 TEST(Init, refusesKindsThatThereAreNot) {
   const Program ursula;
-  const UrsulaRun unknown = ursula("init a.toml --kind UPZ");
-  EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_THAT(unknown.err,
-              HasSubstr("--kind UPZ: unknown kind of leg, expected one of URS, UPS, RUS, PUS, did you mean"));
-  EXPECT_EQ(ursula.files(), 0u);
+  expectRefused(ursula, {{"init a.toml --kind UPZ",
+                          "--kind UPZ: unknown kind of leg, expected one of URS, UPS, RUS, PUS, did you mean"}});
 }
 
 TEST(CheckVerb, warnsAndPasses) {

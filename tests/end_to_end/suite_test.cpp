@@ -5,8 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/end_to_end/program.h"
-#include "tests/model/scenario_text.h"
+#include "tests/end_to_end/quick_runs.h"
 
 namespace ursula {
 namespace {
@@ -18,14 +17,8 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-std::string shortScenario(const std::string& name) {
-  std::string text = replaced(good_scenario, "name = \"small\"", "name = \"" + name + "\"");
-  text = replaced(text, "duration = 3.0", "duration = 0.3");
-  return text + "\n[simulation]\nsamples = 3\n";
-}
-
 std::string tooTight(const std::string& name) {
-  return shortScenario(name) + "\n[acceptance]\n\"torque.pointwise\" = 1e-30\n";
+  return quickScenario(name) + "\n[acceptance]\n\"torque.pointwise\" = 1e-30\n";
 }
 
 /// Whether `path` exists below the run's folder.
@@ -36,8 +29,8 @@ bool isThere(const TemporaryFolder& folder, const std::string& path) {
 TEST(SuiteRun, aFolderThatPassesExitsWith0AndWritesEverything) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "in");
-  folder.write("in/b.toml", shortScenario("second"));
-  folder.write("in/a.toml", shortScenario("first"));
+  folder.write("in/b.toml", quickScenario("second"));
+  folder.write("in/a.toml", quickScenario("first"));
   const ProgramRun run = runProgram(folder, {"validate", "in", "--jobs", "2"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(StartsWith("pass          first   "), HasSubstr("\npass          second  "),
@@ -53,7 +46,7 @@ TEST(SuiteRun, aFolderThatPassesExitsWith0AndWritesEverything) {
 TEST(SuiteRun, aFolderIsASuiteEvenOfOneScenario) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "in");
-  folder.write("in/a.toml", shortScenario("alone"));
+  folder.write("in/a.toml", quickScenario("alone"));
   const ProgramRun run = runProgram(folder, {"validate", "in"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, EndsWith("1 passed, 0 failed, 0 inconclusive\nindex: results/suite/index.html\n"));
@@ -63,7 +56,7 @@ TEST(SuiteRun, aFolderIsASuiteEvenOfOneScenario) {
 
 TEST(SuiteRun, oneThatFailsMakesTheExitCode1) {
   const TemporaryFolder folder;
-  folder.write("good.toml", shortScenario("good"));
+  folder.write("good.toml", quickScenario("good"));
   folder.write("tight.toml", tooTight("tight"));
   const ProgramRun run = runProgram(folder, {"validate", "good.toml", "tight.toml", "--out", "out"});
   EXPECT_EQ(run.exit_code, 1) << run.err;
@@ -74,9 +67,9 @@ TEST(SuiteRun, oneThatFailsMakesTheExitCode1) {
 }
 
 void writeOneGoodAndTwoBad(const TemporaryFolder& folder) {
-  folder.write("good.toml", shortScenario("good"));
-  folder.write("reach.toml", replaced(shortScenario("reach"), "height_phase = 2.2", "height_phase = 5"));
-  folder.write("key.toml", replaced(shortScenario("key"), "mass = 500.0", "weight = 500.0"));
+  folder.write("good.toml", quickScenario("good"));
+  folder.write("reach.toml", replaced(quickScenario("reach"), "height_phase = 2.2", "height_phase = 5"));
+  folder.write("key.toml", replaced(quickScenario("key"), "mass = 500.0", "weight = 500.0"));
 }
 
 TEST(SuiteRun, oneBadScenarioIsItsOwnErrorAndNotTheEndOfTheSuite) {
@@ -124,7 +117,7 @@ TEST(SuiteRun, asJsonIsAnArrayOfTheSummaries) {
 
 TEST(SuiteRun, quietlyIsALineForEachThatPasses) {
   const TemporaryFolder folder;
-  folder.write("a.toml", shortScenario("first"));
+  folder.write("a.toml", quickScenario("first"));
   folder.write("b.toml", tooTight("second"));
   const ProgramRun run = runProgram(folder, {"validate", "a.toml", "b.toml", "--quiet", "--out", "out"});
   EXPECT_EQ(run.exit_code, 1);
@@ -134,29 +127,18 @@ TEST(SuiteRun, quietlyIsALineForEachThatPasses) {
 }
 
 TEST(SuiteRun, badUsageExitsWith2AndWritesNothing) {
-  const TemporaryFolder folder;
-  folder.write("a.toml", shortScenario("same"));
-  folder.write("b.toml", shortScenario("same"));
-  folder.write("c.toml", shortScenario("other"));
-  folder.write("file", "");
-  std::filesystem::create_directory(folder.path() / "empty");
-  const std::vector<std::pair<std::vector<std::string>, std::string>> calls = {
-      {{"a.toml", "b.toml"}, "b.toml: error: name = 'same' is also that of a.toml"},
-      {{"empty"}, "empty: error: no scenario in this folder"},
-      {{"a.toml", "c.toml", "--jobs", "0"}, "--jobs"},
-      {{"a.toml", "c.toml", "--torques", "t.csv"}, "--torques: got 2 scenarios, expected one"},
-      {{"a.toml", "c.toml", "--out", "file"}, "expected a folder"},
-      {{"none.toml"}, "none.toml"},
-      {{}, "scenario is required"},
-  };
-  for (const auto& [arguments, message] : calls) {
-    std::vector<std::string> call = {"validate"};
-    call.insert(call.end(), arguments.begin(), arguments.end());
-    const ProgramRun run = runProgram(folder, call);
-    EXPECT_EQ(run.exit_code, 2) << message;
-    EXPECT_THAT(run.err, HasSubstr(message));
-    EXPECT_FALSE(isThere(folder, "results")) << message;
-  }
+  const Program ursula;
+  for (const char* file : {"a.toml", "b.toml"}) ursula.write(file, quickScenario("same"));
+  ursula.write("c.toml", quickScenario("other"));
+  ursula.write("file", "");
+  std::filesystem::create_directory(ursula.folder() / "empty");
+  expectRefused(ursula, {{"validate a.toml b.toml", "b.toml: error: name = 'same' is also that of a.toml"},
+                         {"validate empty", "empty: error: no scenario in this folder"},
+                         {"validate a.toml c.toml --jobs 0", "--jobs"},
+                         {"validate a.toml c.toml --torques t.csv", "--torques: got 2 scenarios, expected one"},
+                         {"validate a.toml c.toml --out file", "expected a folder"},
+                         {"validate none.toml", "none.toml"},
+                         {"validate", "scenario is required"}});
 }
 
 TEST(SuiteRun, helpSaysWhatASuiteDoes) {

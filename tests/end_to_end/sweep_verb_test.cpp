@@ -106,32 +106,28 @@ TEST(SweepVerb, refusesInOneLineWhatCannotBe) {
   ursula.write("other.toml", sweepOf("inverse", "design = \"random\"\ncount = 51\nsamples = 5\n"));
   ursula.write("bad.toml", sweepOf("inverse", "design = \"randon\"\ncount = 50\n"));
   ASSERT_EQ(ursula("sweep s.toml --db s.db").exit_code, 0);
-  const auto refused = [&](const std::string& call, const std::string& says) {
-    const UrsulaRun run = ursula("sweep " + call);
-    EXPECT_EQ(run.exit_code, 2) << call;
-    EXPECT_THAT(run.err, HasSubstr(says)) << call;
-    EXPECT_EQ(run.out, "") << call;
-  };
-  refused("bad.toml",
-          "bad.toml:3:10: error: design: 'randon', expected 'grid', 'random' or 'sobol', did you mean 'random'?");
-  refused("'" URSULA_SCENARIOS "/paper-helix.toml'",
-          "manipulator: a scenario, expected a sweep, which names one: scenario = \"paper-helix.toml\"");
-  refused("none.toml", "none.toml: error: no such file");
-  refused("other.toml --db s.db", "s.db: error: is of another sweep, s.toml");
-  refused("s.toml --shard 0/4", "--shard 0/4: expected I/N with I from 1 to N");
-  refused("s.toml --shard 5/4", "--shard 5/4: expected I/N");
-  refused("s.toml --shard 1/4x", "--shard 1/4x: expected I/N");
-  refused("s.toml --db bad.toml", "bad.toml: error: not an SQLite database, expected the database of a sweep");
-  refused("s.toml --pointwise", "--pointwise: expected a sweep with what = \"validate\"");
-  refused("show s.toml 50", "point 50: s.toml has points 0 to 49");
-  refused("merge s.db none.db --db all.db", "none.db: error: it cannot be opened");
-  refused("", "sweep");
-  refused("merge s.db", "ursula sweep merge: --db is required (ursula sweep merge --help");
-  refused("s.toml --db /dev/null", "/dev/null: error: is not a regular file");
   ursula.write(
       "twice.toml",
       sweepOf("inverse", "design = \"random\"\ncount = 2\n[[vary]]\nkey = \"leg.01.base_point.0\"\nvalues = [0.1]\n"));
-  refused("twice.toml", "'01', expected an index from 1 to 6");
+  expectRefused(
+      ursula,
+      {{"sweep bad.toml",
+        "bad.toml:3:10: error: design: 'randon', expected 'grid', 'random' or 'sobol', did you mean 'random'?"},
+       {"sweep '" URSULA_SCENARIOS "/paper-helix.toml'",
+        "manipulator: a scenario, expected a sweep, which names one: scenario = \"paper-helix.toml\""},
+       {"sweep none.toml", "none.toml: error: no such file"},
+       {"sweep other.toml --db s.db", "s.db: error: is of another sweep, s.toml"},
+       {"sweep s.toml --shard 0/4", "--shard 0/4: expected I/N with I from 1 to N"},
+       {"sweep s.toml --shard 5/4", "--shard 5/4: expected I/N"},
+       {"sweep s.toml --shard 1/4x", "--shard 1/4x: expected I/N"},
+       {"sweep s.toml --db bad.toml", "bad.toml: error: not an SQLite database, expected the database of a sweep"},
+       {"sweep s.toml --pointwise", "--pointwise: expected a sweep with what = \"validate\""},
+       {"sweep show s.toml 50", "point 50: s.toml has points 0 to 49"},
+       {"sweep merge s.db none.db --db all.db", "none.db: error: it cannot be opened"},
+       {"sweep ", "sweep"},
+       {"sweep merge s.db", "ursula sweep merge: --db is required (ursula sweep merge --help"},
+       {"sweep s.toml --db /dev/null", "/dev/null: error: is not a regular file"},
+       {"sweep twice.toml", "'01', expected an index from 1 to 6"}});
 }
 
 /// SQLite gives some names a special meaning.

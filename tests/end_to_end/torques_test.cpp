@@ -1,4 +1,4 @@
-// `ursula validate --torques` and `ursula compare`, as a user calls them.
+// `ursula validate --torques`, as a user calls it.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,6 +35,8 @@ TEST(TorquesRun, whatInverseWritesPasses) {
   prepare(ursula, "101");
   const auto run = ursula("validate small.toml --torques tau.csv --out out");
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  EXPECT_EQ(ursula("compare out out --tolerance 0").exit_code, 0) << "two folders of results";
+  EXPECT_EQ(ursula("compare out tau.csv").exit_code, 3) << "only a part of the channels is common, and all agree";
   EXPECT_THAT(run.out,
               AllOf(StartsWith("small: pass\n"), HasSubstr("torque.against_noc"), HasSubstr("replay.position")));
   EXPECT_THAT(run.err,
@@ -81,38 +83,6 @@ TEST(TorquesRun, refusalsNameTheLineAndWriteNothing) {
   EXPECT_THAT(refused(replacedLine(text, 6, late)),
               HasSubstr("bad.csv:6: error: t_s = 3.5 lies outside of the motion, expected 0 to 3 s"));
   EXPECT_THAT(refused(replaced(text, "tau_4_Nm", "fourth")), HasSubstr("bad.csv:1: error: missing column 'tau_4_Nm'"));
-}
-
-TEST(CompareRun, exitCodesAndStreams) {
-  const Program ursula;
-  ursula.write("a.csv", "t_s,x\n0,1\n1,2\n");
-  ursula.write("b.csv", "t_s,x\n0,1\n1,2.5\n");
-  ursula.write("c.csv", "t_s,x,y\n0,1,1\n1,2,1\n");
-  ursula.write("d.csv", "t_s,x\n1,1\n0,2\n");
-  const auto same = ursula("compare a.csv a.csv");
-  EXPECT_EQ(same.exit_code, 0);
-  EXPECT_THAT(same.out, AllOf(HasSubstr("compared 1 of 1 channels at 2 instants"), HasSubstr("verdict: pass\n")));
-  EXPECT_EQ(ursula("compare a.csv b.csv").exit_code, 1);
-  EXPECT_EQ(ursula("compare a.csv b.csv --tolerance 0.3").exit_code, 0);
-  EXPECT_EQ(ursula("compare c.csv a.csv").exit_code, 3);
-  const auto bad = ursula("compare a.csv d.csv");
-  EXPECT_EQ(bad.exit_code, 2);
-  EXPECT_THAT(bad.err, StartsWith("d.csv:3: error: "));
-  EXPECT_EQ(ursula("compare a.csv none.csv").exit_code, 2);
-  EXPECT_EQ(ursula("compare a.csv b.csv --tolerance -1").exit_code, 2);
-  const auto csv = ursula("compare a.csv b.csv --out -");
-  EXPECT_THAT(csv.out, AllOf(StartsWith("channel,verdict,"), Not(HasSubstr("compared"))));
-  EXPECT_THAT(csv.err, HasSubstr("compared 1 of 1 channels"));
-}
-
-TEST(CompareRun, twoResultFolders) {
-  const Program ursula;
-  prepare(ursula, "101");
-  for (const char* out : {"one", "two"})
-    ASSERT_EQ(ursula("validate small.toml --torques tau.csv --out " + std::string(out)).exit_code, 0);
-  const auto run = ursula("compare one two --tolerance 0");
-  EXPECT_EQ(run.exit_code, 0) << run.out;
-  EXPECT_EQ(ursula("compare one tau.csv").exit_code, 3);  // only a part of the channels is common, and all agree
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "base/csv.h"
 #include "tests/end_to_end/program.h"
+#include "tests/model/scenario_text.h"
 
 namespace ursula {
 namespace {
@@ -81,46 +82,18 @@ TEST(ValidateVerb, exitsWithOneWhereACheckFailsAndStillReports) {
   EXPECT_EQ(summary.at("verdict"), "fail");
 }
 
-/// Expects exit code 2, the message, and no file.
-void expectRefused(const std::string& scenario, const std::string& message) {
+TEST(ValidateVerb, refusesWhatIsNoScenario) {
   const Program ursula;
-  ursula.write("bad.toml", scenario);
-  const UrsulaRun run = ursula("validate bad.toml --out dir");
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_TRUE(std::regex_search(run.err, std::regex(message))) << run.err;
-  EXPECT_EQ(run.out, "");
-  EXPECT_EQ(ursula.files(), 1u) << "nothing but the scenario";
-}
-
-TEST(ValidateVerb, refusesAMistypedKeyByItsPlaceAndTheNearest) {
-  std::string text = Program::shipped("paper-helix.toml");
-  const std::string key = "mass = 500.0";
-  ASSERT_NE(text.find(key), std::string::npos);
-  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find(key)), '\n');
-  expectRefused(text.replace(text.find(key), key.size(), "mas = 500.0"),
-                "bad\\.toml:" + std::to_string(line) + ":1: error: .*mas.*did you mean.*mass");
-}
-
-TEST(ValidateVerb, refusesWhatNoMachineCanHave) {
-  std::string text = Program::shipped("paper-helix.toml");
-  const std::string key = "mass = 500.0";
-  expectRefused(text.replace(text.find(key), key.size(), "mass = -500.0"), "bad\\.toml:[0-9]+:[0-9]+: error: .*-500");
-}
-
-TEST(ValidateVerb, refusesWhatIsNoToml) { expectRefused("name = [", "bad\\.toml:1:[0-9]+: error: "); }
-
-TEST(ValidateVerb, refusesAFileThatIsNotThere) {
-  const Program ursula;
-  const UrsulaRun run = ursula("validate none.toml --out dir");
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("none.toml"));
-  EXPECT_EQ(ursula.files(), 0u);
-}
-
-TEST(ValidateVerb, refusesAMotionOutOfReach) {
-  std::string text = Program::shipped("paper-helix.toml");
-  const std::string key = "height_phase = 2.2";
-  expectRefused(text.replace(text.find(key), key.size(), "height_phase = 4.0"), "leg [1-6]");
+  ursula.write("key.toml", replaced(good_scenario, "mass = 500.0", "mas = 500.0"));
+  ursula.write("no_mass.toml", replaced(good_scenario, "mass = 500.0", "mass = -500.0"));
+  ursula.write("no.toml", "name = [");
+  ursula.write("far.toml", replaced(good_scenario, "height_phase = 2.2", "height_phase = 4.0"));
+  expectRefused(ursula, {{"validate key.toml --out dir", "key.toml:5:1: error: unknown key 'mas'"},
+                         {"validate key.toml --out dir", "did you mean 'mass'?"},
+                         {"validate no_mass.toml --out dir", "no_mass.toml:5:8: error: "},
+                         {"validate no.toml --out dir", "no.toml:1:"},
+                         {"validate none.toml --out dir", "none.toml"},
+                         {"validate far.toml --out dir", "is out of reach at t = "}});
 }
 
 }  // namespace
