@@ -1,17 +1,17 @@
-// What is said of torques that are wrong: each fault is put into exact ones of the helix and must be named.
+// What is said of torques that are wrong: each fault is put into exact ones of the helix, and must be named in words
+// and by the contract's terms.
 
-#include "validation/causes/diagnosis.h"
-#include "model/instants.h"
-
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "tests/support/motions.h"
 #include "tests/validation/external_torques.h"
 #include "tests/validation/scenario_files.h"
+#include "tests/validation/wrong_solvers.h"
 
 namespace ursula {
 namespace {
@@ -21,34 +21,37 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-constexpr int instants = 61;
+Rows ofMachine(const MachineChange& change) { return onHelix().answers(onHelix().solver(change)); }
 
-const TorqueTable& exact() {
-  static const TorqueTable torques = exactTorques(helix(), instants);
-  return torques;
+Rows ofMotion(const std::function<void(Motion<double>&)>& change) {
+  return onHelix().answers([&](Motion<double> motion) {
+    change(motion);
+    return onHelix().solver()(motion);
+  });
 }
 
-Diagnosis diagnosed(const TorqueTable& torques, const Scenario& scenario = helix()) {
-  return diagnose(scenario, runExternal(scenario, torques.file()));
+Rows ofFormula(FormulaError error) {
+  return onHelix().answers(wrongNocSubject(*onHelix().scenario.manipulator, nullptr, WithFormulaErrors(error)).torques);
 }
 
-/// Torques of a machine that differs.
-TorqueTable ofAnother(const std::function<void(ManipulatorParameters&)>& change, const Scenario& scenario = helix()) {
-  ManipulatorParameters parameters = scenario.manipulator->parameters();
-  change(parameters);
-  return torquesOf(scenario, nocSubject(Manipulator(parameters), scenario.load),
-                   equallySpaced(scenario.trajectory->duration(), instants));
+Rows ofColumns(const std::function<void(Vector6d&)>& change) {
+  return onHelix().rightBut([&](std::size_t, Vector6d& tau) { change(tau); });
+}
+
+Rows shifted(double by) {
+  return ofMotion(
+      [by](auto& motion) { motion = onHelix().scenario.trajectory->at(std::min(std::max(motion.t + by, 0.0), 3.0)); });
 }
 
 TEST(Diagnosis, saysNothingOfExactTorques) {
-  const Diagnosis diagnosis = diagnosed(exact());
+  const Diagnosis diagnosis = onHelix().said(onHelix().right());
   EXPECT_EQ(diagnosis.summary, "");
   EXPECT_EQ(diagnosis.deviation, "");
   EXPECT_EQ(diagnosis.cause, "");
 }
 
 TEST(Diagnosis, saysWhichLegsWhenAndHowMuch) {
-  const Diagnosis diagnosis = diagnosed(exact().changed([](std::size_t k, Vector6d& tau) {
+  const Diagnosis diagnosis = onHelix().said(onHelix().rightBut([](std::size_t k, Vector6d& tau) {
     if (k >= 20 && k <= 40) tau(1) += k == 30 ? 50 : 5;
   }));
   EXPECT_THAT(diagnosis.summary, StartsWith("leg 2 by up to 50 N m (0.199 % of the largest torque), from t = 1 to 2 s, "
@@ -57,175 +60,156 @@ TEST(Diagnosis, saysWhichLegsWhenAndHowMuch) {
   EXPECT_THAT(diagnosis.deviation, HasSubstr("within their limits: 1, 3, 4, 5, 6; off in 21 of 61 samples, 34.4 %"));
 }
 
-TEST(Diagnosis, namesGravity) {
-  const auto without = [](ManipulatorParameters& machine) { machine.gravity.setZero(); };
-  EXPECT_THAT(diagnosed(ofAnother(without)).cause, StartsWith("gravity left out, which explains more than 99.9999 %"));
-  EXPECT_THAT(diagnosed(ofAnother([](auto& machine) { machine.gravity *= -1; })).cause,
-              StartsWith("gravity with the wrong sign"));
-  EXPECT_THAT(diagnosed(ofAnother([](auto& machine) { machine.gravity *= 1.001; })).cause,
-              StartsWith("gravity scaled by 1.001,"));
+struct SaidFault {
+  std::string words;
+  Rows torques;
+  std::optional<CauseKind> kind;
+  std::string term, body;
+};
+
+std::vector<SaidFault> faults() {
+  const auto gravity = [](double by) { return ofMachine([by](auto& machine) { machine.gravity *= by; }); };
+  return {
+      {"gravity left out, which explains more than 99.9999 %", gravity(0), CauseKind::missing_term, "gravity", "all"},
+      {"gravity with the wrong sign", gravity(-1), CauseKind::sign, "gravity", "all"},
+      {"gravity scaled by 1.001,", gravity(1.001), CauseKind::parameter, "gravity", "all"},
+      {"gravity scaled by 1 - 0.0003415 (9.80665 m/s^2, standard gravity), which", gravity(9.80665 / 9.81),
+       CauseKind::parameter, "gravity", "all"},
+      {"", ofFormula(FormulaError::drop_gravity_platform), CauseKind::missing_term, "gravity", "platform"},
+      {"", ofFormula(FormulaError::drop_coriolis), CauseKind::missing_term, "coriolis", "legs"},
+      {"(43b) as printed, its last terms doubled", ofFormula(FormulaError::eq43b_doubled), {}, "", ""},
+      {"", ofMotion([](auto& motion) { motion.Q.transposeInPlace(); }), CauseKind::frame, "orientation", "all"},
+      {"", ofMotion([](auto& motion) { motion.omega_dot.setZero(); }), CauseKind::missing_term, "angular_acceleration",
+       "all"},
+      {"the torques of acceleration (inertia) left out",
+       ofMotion([](auto& motion) { motion.omega_dot.setZero(), motion.p_ddot.setZero(); }),
+       {},
+       "",
+       ""},
+      {"", ofMachine([](auto& machine) { machine.platform.center_of_mass *= -1; }), CauseKind::reference_point, "",
+       "platform"},
+      {"platform mass 510 +- ", ofMachine([](auto& machine) { machine.platform.mass *= 1.02; }), CauseKind::parameter,
+       "", "platform"},
+      {"platform inertia tensor scaled by 0.9 +- ", ofMachine([](auto& machine) { machine.platform.inertia *= 0.9; }),
+       CauseKind::scale, "inertia", "platform"},
+      {"legs 2 and 5 swapped, which explains more than 99.9999 %",
+       ofColumns([](auto& tau) { std::swap(tau(1), tau(4)); }), CauseKind::order, "", ""},
+      {"the sign of leg 3 flipped, which explains", ofColumns([](auto& tau) { tau(2) *= -1; }), CauseKind::sign, "",
+       ""},
+      {"the sign of every leg flipped", ofColumns([](auto& tau) { tau *= -1; }), CauseKind::sign, "", "all"},
+      {"a constant offset: +5 N m on leg 4, which explains", ofColumns([](auto& tau) { tau(3) += 5; }),
+       CauseKind::offset, "", ""},
+      {"every torque scaled by 0.001 (kN m for N m)", ofColumns([](auto& tau) { tau *= 1e-3; }), CauseKind::units, "",
+       "all"},
+      {"a factor of 1.02 on leg 4", ofColumns([](auto& tau) { tau(3) *= 1.02; }), CauseKind::scale, "", ""},
+      {"every torque scaled by 1 + 1e-08", ofColumns([](auto& tau) { tau *= 1 + 1e-8; }), CauseKind::scale, "", "all"},
+      {"a factor of 1 - 1e-10 on leg 3, which", ofColumns([](auto& tau) { tau(2) *= 1 - 1e-10; }), CauseKind::scale, "",
+       ""},
+      {"a time shift: the torques of 10 ms before (late)", shifted(-0.01), {}, "", ""},
+      {"a time shift: the torques of 10 ms after (early)", shifted(0.01), {}, "", ""},
+      {"a time shift: the torques of 200 ms after", shifted(0.2), {}, "", ""},
+      {"single precision",
+       ofColumns([](auto& tau) { tau = tau.template cast<float>().template cast<double>().eval(); }),
+       {},
+       "",
+       ""},
+  };
 }
 
-TEST(Diagnosis, namesInertia) {
-  TorqueTable torques = exact();
-  const Subject noc = nocSubject(*helix().manipulator, nullptr);
-  for (std::size_t k = 0; k < torques.t.size(); ++k) {
-    Motion<double> motion = helix().trajectory->at(torques.t[k]);
-    motion.omega_dot.setZero();
-    motion.p_ddot.setZero();
-    torques.torques[k] = noc.torques(motion);
+TEST(Diagnosis, namesEachFault) {
+  for (const SaidFault& fault : faults()) {
+    const Diagnosis said = onHelix().said(fault.torques);
+    EXPECT_THAT(said.cause, StartsWith(fault.words));
+    if (!fault.kind) continue;
+    const NamedCause found = named(said, *fault.kind);
+    EXPECT_EQ(found.term, fault.term) << said.cause;
+    EXPECT_EQ(found.body, fault.body) << said.cause;
   }
-  EXPECT_THAT(diagnosed(torques).cause, StartsWith("the torques of acceleration (inertia) left out"));
 }
 
 TEST(Diagnosis, namesFriction) {
-  Scenario rough = helix();
-  ManipulatorParameters parameters = rough.manipulator->parameters();
-  for (Leg& leg : parameters.legs) leg.friction = {30, 20, 10};
-  rough.manipulator = std::make_shared<const Manipulator>(parameters);
-  EXPECT_THAT(diagnosed(exact(), rough).cause, StartsWith("friction left out"));
-}
-
-TEST(Diagnosis, namesMasses) {
-  EXPECT_THAT(diagnosed(ofAnother([](auto& machine) { machine.platform.mass *= 1.02; })).cause,
-              AllOf(StartsWith("platform mass 510 +- "), HasSubstr(" kg instead of 500, which explains more than")));
-  EXPECT_THAT(diagnosed(ofAnother([](auto& machine) { machine.platform.inertia *= 0.9; })).cause,
-              StartsWith("platform inertia tensor scaled by 0.9 +- "));
-}
-
-TEST(Diagnosis, knowsStandardGravity) {
-  EXPECT_THAT(diagnosed(ofAnother([](auto& machine) { machine.gravity.z() = -9.80665; })).cause,
-              StartsWith("gravity scaled by 1 - 0.0003415 (9.80665 m/s^2, standard gravity), which"));
+  const Trial rough{changed(onHelix().scenario, ofEachLeg([](Leg& leg) { leg.friction = {30, 20, 10}; })), 61};
+  EXPECT_THAT(rough.said(onHelix().right()).cause, StartsWith("friction left out"));
 }
 
 TEST(Diagnosis, givesAParameterAsManyDigitsAsTheFileHas) {
-  const TorqueTable heavier = ofAnother([](auto& machine) { machine.platform.mass = 499.31; });
-  std::string text = "t_s,tau_1_Nm,tau_2_Nm,tau_3_Nm,tau_4_Nm,tau_5_Nm,tau_6_Nm\n";
-  for (std::size_t k = 0; k < heavier.t.size(); ++k) {
-    text += fmt::format("{:.17g}", heavier.t[k]);
-    for (int i = 0; i < leg_count; ++i) text += fmt::format(",{:.1f}", heavier.torques[k](i));
-    text += '\n';
-  }
-  const TorqueFile file = parseTorqueFile(text, "rounded.csv");
-  const std::string cause = diagnose(helix(), runExternal(helix(), file)).cause;
-  EXPECT_THAT(cause, HasSubstr("platform mass 499.3"));
-  EXPECT_THAT(cause, HasSubstr(" kg instead of 500"));
+  const Rows heavier = ofMachine([](auto& machine) { machine.platform.mass = 499.31; });
+  const TorqueFile file = TorqueTable{onHelix().t(), heavier}.printed("{:.1f}");
+  const std::string cause = diagnose(onHelix().scenario, runExternal(onHelix().scenario, file)).cause;
+  EXPECT_THAT(cause, AllOf(HasSubstr("platform mass 499.3"), HasSubstr(" kg instead of 500")));
 }
 
+/// Two causes: the larger one is a part, and the rest is far beyond the file's precision.
 TEST(Diagnosis, namesAPartAsAPart) {
-  // Two causes: the larger one is a part, and the rest is far beyond the file's precision.
-  TorqueTable torques = ofAnother([](auto& machine) { machine.platform.mass *= 1.05; });
+  Rows torques = ofMachine([](auto& machine) { machine.platform.mass *= 1.05; });
   SeededDraws dice(3);
-  for (Vector6d& tau : torques.torques) tau(1) += dice.between(-1, 1);
-  EXPECT_THAT(diagnosed(torques).cause, AllOf(StartsWith("a likely part: platform mass 52"),
-                                              HasSubstr("times the limit of rounding and digits")));
-}
-
-TEST(Diagnosis, namesSwappedLegs) {
-  const TorqueTable swapped = exact().changed([](std::size_t, Vector6d& tau) { std::swap(tau(1), tau(4)); });
-  EXPECT_THAT(diagnosed(swapped).cause, StartsWith("legs 2 and 5 swapped, which explains more than 99.9999 %"));
-  EXPECT_THAT(diagnosed(swapped).summary, StartsWith("legs 2, 5 by up to "));
-}
-
-TEST(Diagnosis, namesSigns) {
-  EXPECT_THAT(diagnosed(exact().changed([](std::size_t, Vector6d& tau) { tau(2) *= -1; })).cause,
-              StartsWith("the sign of leg 3 flipped, which explains"));
-  EXPECT_THAT(diagnosed(exact().changed([](std::size_t, Vector6d& tau) { tau *= -1; })).cause,
-              StartsWith("the sign of every leg flipped"));
-}
-
-TEST(Diagnosis, namesOffsetsScalesAndUnits) {
-  const Vector6d offset = (Vector6d() << 0, 0, 0, 5, 0, 0).finished();
-  EXPECT_THAT(diagnosed(exact().changed([&](std::size_t, Vector6d& tau) { tau += offset; })).cause,
-              StartsWith("a constant offset: +5 N m on leg 4, which explains"));
-  EXPECT_THAT(diagnosed(exact().changed([](std::size_t, Vector6d& tau) { tau *= 1e-3; })).cause,
-              StartsWith("every torque scaled by 0.001 (kN m for N m)"));
-  EXPECT_THAT(diagnosed(exact().changed([](std::size_t, Vector6d& tau) { tau(3) *= 1.02; })).cause,
-              StartsWith("a factor of 1.02 on leg 4"));
-  EXPECT_THAT(diagnosed(exact().changed([](std::size_t, Vector6d& tau) { tau *= 1 + 1e-8; })).cause,
-              StartsWith("every torque scaled by 1 + 1e-08"));
-  EXPECT_THAT(diagnosed(exact().changed([](std::size_t, Vector6d& tau) { tau(2) *= 1 - 1e-10; })).cause,
-              StartsWith("a factor of 1 - 1e-10 on leg 3, which"));
-}
-
-TEST(Diagnosis, namesATimeShift) {
-  for (double shift : {-0.01, 0.01, 0.2}) {
-    TorqueTable torques = exact();
-    const Subject noc = nocSubject(*helix().manipulator, nullptr);
-    for (std::size_t k = 0; k < torques.t.size(); ++k)
-      torques.torques[k] = noc.torques(helix().trajectory->at(std::min(std::max(torques.t[k] + shift, 0.0), 3.0)));
-    EXPECT_THAT(diagnosed(torques).cause,
-                StartsWith(shift == -0.01  ? "a time shift: the torques of 10 ms before (late)"
-                           : shift == 0.01 ? "a time shift: the torques of 10 ms after (early)"
-                                           : "a time shift: the torques of 200 ms after"));
-  }
-}
-
-TEST(Diagnosis, namesAFormulaAsPrinted) {
-  const TorqueTable torques =
-      torquesOf(helix(), wrongNocSubject(*helix().manipulator, nullptr, WithFormulaErrors(FormulaError::eq43b_doubled)),
-                equallySpaced(3, instants));
-  EXPECT_THAT(diagnosed(torques).cause, StartsWith("(43b) as printed, its last terms doubled"));
+  for (Vector6d& tau : torques) tau(1) += dice.between(-1, 1);
+  EXPECT_THAT(onHelix().said(torques).cause, AllOf(StartsWith("a likely part: platform mass 52"),
+                                                   HasSubstr("times the limit of rounding and digits")));
 }
 
 /// The same mistake in other words is no alternative, and a telescopic leg has none of the paper's equations.
 TEST(Diagnosis, namesAMistakeOnceAndWithoutEquations) {
-  const Scenario telescopic = scenarioOf("flight-simulator");
+  const Trial telescopic{scenarioOf("flight-simulator"), 61};
   for (const auto& [error, words, again] :
        {std::tuple(FormulaError::drop_gyroscopic_platform, "the gyroscopic moment of the platform left out",
                    "the platform's gyroscopic moment"),
         std::tuple(FormulaError::drop_gyroscopic_legs, "the gyroscopic moment of the links left out",
                    "the links' gyroscopic moments")}) {
-    const std::string cause =
-        diagnosed(
-            torquesOf(telescopic, wrongNocSubject(*telescopic.manipulator, telescopic.load, WithFormulaErrors(error)),
-                      equallySpaced(telescopic.trajectory->duration(), instants)),
-            telescopic)
-            .cause;
+    const Subject wrong =
+        wrongNocSubject(*telescopic.scenario.manipulator, telescopic.scenario.load, WithFormulaErrors(error));
+    const std::string cause = telescopic.said(telescopic.answers(wrong.torques)).cause;
     EXPECT_THAT(cause, StartsWith(words));
     EXPECT_THAT(cause, AllOf(Not(HasSubstr(again)), Not(HasSubstr("(38)"))));
   }
 }
 
-TEST(Diagnosis, namesSinglePrecision) {
-  const TorqueTable torques =
-      exact().changed([](std::size_t, Vector6d& tau) { tau = tau.cast<float>().cast<double>().eval(); });
-  EXPECT_THAT(diagnosed(torques).cause, StartsWith("single precision"));
-}
-
 TEST(Diagnosis, claimsNothingThatTheResidualDoesNotSupport) {
   SeededDraws dice(5);
-  const TorqueTable noisy = exact().changed([&](std::size_t, Vector6d& tau) {
+  const Diagnosis noisy = onHelix().said(ofColumns([&](auto& tau) {
     for (int i = 0; i < leg_count; ++i) tau(i) += dice.between(-1, 1);
-  });
-  EXPECT_THAT(diagnosed(noisy).cause, StartsWith("no pattern from one instant to the next"));
-  const TorqueTable mixed = exact().changed([](std::size_t k, Vector6d& tau) {
+  }));
+  EXPECT_THAT(noisy.cause, StartsWith("no pattern from one instant to the next"));
+  EXPECT_FALSE(noisy.named);
+  const Diagnosis mixed = onHelix().said(onHelix().rightBut([](std::size_t k, Vector6d& tau) {
     tau *= 1.05;
     tau(0) += 40 * std::sin(0.1 * static_cast<double>(k));
-  });
-  EXPECT_THAT(diagnosed(mixed).cause, StartsWith("no simple explanation"));
-  EXPECT_THAT(diagnosed(mixed).cause, HasSubstr("explains only"));
+  }));
+  EXPECT_THAT(mixed.cause, AllOf(StartsWith("no simple explanation"), HasSubstr("explains only")));
 }
 
 /// A third of the motion, in which a factor explains all; of a pattern there is none, only the interval is named.
 TEST(Diagnosis, namesAnIntervalAndWhatIsWrongInIt) {
-  const auto within = [](std::size_t k) { return k >= 20 && k <= 40; };
-  const TorqueTable scaled = exact().changed([&](std::size_t k, Vector6d& tau) {
-    if (within(k)) tau *= 1.001;
-  });
-  EXPECT_THAT(diagnosed(scaled).cause, StartsWith("right but from t = 1 to 2 s; there every torque scaled by 1.001"));
+  const auto within = [](const std::function<void(Vector6d&)>& change) {
+    return onHelix().said(onHelix().rightBut([&](std::size_t k, Vector6d& tau) {
+      if (k >= 20 && k <= 40) change(tau);
+    }));
+  };
+  const Diagnosis scaled = within([](Vector6d& tau) { tau *= 1.001; });
+  EXPECT_THAT(scaled.cause, StartsWith("right but from t = 1 to 2 s; there every torque scaled by 1.001"));
+  const NamedCause window = named(scaled, CauseKind::window);
+  EXPECT_NEAR(window.from_s.value(), 1, 1e-12);
+  EXPECT_NEAR(window.to_s.value(), 2, 1e-12);
   SeededDraws dice(6);
-  const TorqueTable noisy = exact().changed([&](std::size_t k, Vector6d& tau) {
-    for (int i = 0; i < leg_count && within(k); ++i) tau(i) += dice.between(1, 2);
+  const Diagnosis noisy = within([&](Vector6d& tau) {
+    for (int i = 0; i < leg_count; ++i) tau(i) += dice.between(1, 2);
   });
-  EXPECT_EQ(diagnosed(noisy).cause, "right but from t = 1 to 2 s");
+  EXPECT_EQ(noisy.cause, "right but from t = 1 to 2 s");
 }
 
+/// Six numbers of one pose can be made by much.
 TEST(Diagnosis, ofOneInstantFitsNothingWithAsManyNumbers) {
-  TorqueTable one = exact();
-  one.t = {1.5};
-  one.torques = {exact().torques[30] + (Vector6d() << 1, -2, 3, -1, 2, 1).finished()};
-  EXPECT_THAT(diagnosed(one).cause, Not(HasSubstr("offset")));
+  const auto said = [](const Vector6d& torques) {
+    const GivenTorques given{"solver", {1.5}, {torques}};
+    return diagnose(onHelix().scenario,
+                    runExternal(onHelix().scenario, torqueFileOf(given, onHelix().scenario.manipulator->motors())));
+  };
+  const Motion<double> at = onHelix().scenario.trajectory->at(1.5);
+  EXPECT_THAT(said(onHelix().solver()(at) + (Vector6d() << 1, -2, 3, -1, 2, 1).finished()).cause,
+              Not(HasSubstr("offset")));
+  const Diagnosis heavier = said(onHelix().solver([](auto& machine) { machine.platform.mass *= 1.01; })(at));
+  EXPECT_FALSE(heavier.cause.empty());
+  EXPECT_FALSE(heavier.named);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include "validation/validate.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,17 +12,6 @@ namespace ursula {
 namespace {
 
 using testing::HasSubstr;
-
-/// `format` for every number: "%.6g" as fmt has it.
-TorqueFile printed(const TorqueTable& table, const char* format) {
-  std::string text = fmt::format("{}\n", fmt::join(table.names(), ","));
-  for (std::size_t k = 0; k < table.t.size(); ++k) {
-    text += fmt::format(fmt::runtime(format), table.t[k]);
-    for (int i = 0; i < leg_count; ++i) text += "," + fmt::format(fmt::runtime(format), table.torques[k](i));
-    text += "\n";
-  }
-  return parseTorqueFile(text, "torques.csv");
-}
 
 std::string finding(const ValidationResult& result, const std::string& key) {
   for (const Finding& each : result.findings)
@@ -73,7 +61,7 @@ TEST(External, wrongTorquesFailTheReplayAsWell) {
 
 TEST(External, sixDigitsWidenTheLimitByHalfOfTheLast) {
   const TorqueTable exact = exactTorques(helix(), 61);
-  const ValidationResult result = validateExternal(helix(), printed(exact, "{:.6g}"));
+  const ValidationResult result = validateExternal(helix(), exact.printed("{:.6g}"));
   const Check& torque = *findCheck(result.checks, "torque.pointwise");
   EXPECT_EQ(torque.verdict, Verdict::pass);
   EXPECT_GT(torque.limit, 0.01);
@@ -81,11 +69,12 @@ TEST(External, sixDigitsWidenTheLimitByHalfOfTheLast) {
   EXPECT_THAT(torque.basis, HasSubstr("half a unit of the last digit printed (torques of up to 6 significant digits"));
   EXPECT_EQ(firstFailing(result.checks), "(none)");
   // The controls: the same numbers claimed to more digits, and others that are off by one unit of the last.
-  EXPECT_EQ(validateExternal(helix(), printed(exact, "{:.5e}")).verdict, result.verdict);
-  const TorqueFile rounded = printed(exact, "{:.6g}");
-  EXPECT_EQ(validateExternal(helix(), printed({rounded.t, rounded.torques}, "{:.16e}")).verdict, Verdict::fail);
+  EXPECT_EQ(validateExternal(helix(), exact.printed("{:.5e}")).verdict, result.verdict);
+  const TorqueFile rounded = exact.printed("{:.6g}");
+  EXPECT_EQ(validateExternal(helix(), TorqueTable{rounded.t, rounded.torques}.printed("{:.16e}")).verdict,
+            Verdict::fail);
   const TorqueTable off = exact.changed([](std::size_t, Vector6d& tau) { tau(2) *= 1.0001; });
-  EXPECT_EQ(validateExternal(helix(), printed(off, "{:.6g}")).verdict, Verdict::fail);
+  EXPECT_EQ(validateExternal(helix(), off.printed("{:.6g}")).verdict, Verdict::fail);
 }
 
 TEST(External, tooFewSamplesLeaveTheReplayOpen) {

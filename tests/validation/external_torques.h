@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -40,6 +42,17 @@ struct TorqueTable {
       for (const Vector6d& row : torques) columns.back().push_back(row(i));
     }
     return csvText(names(), columns);
+  }
+
+  /// With each torque in a format such as "{:.3g}".
+  TorqueFile printed(const std::string& format) const {
+    std::string out = fmt::format("{}\n", fmt::join(names(), ","));
+    for (std::size_t k = 0; k < t.size(); ++k) {
+      out += fmt::format("{:.17g}", t[k]);
+      for (const double tau : torques[k]) out += "," + fmt::format(fmt::runtime(format), tau);
+      out += "\n";
+    }
+    return parseTorqueFile(out, "torques.csv");
   }
 
   TorqueFile file() const { return parseTorqueFile(text(), "torques.csv"); }

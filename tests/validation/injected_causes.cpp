@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/changed.h"
 #include "tests/support/motions.h"
 #include "tests/validation/external_torques.h"
 #include "tests/validation/scenario_files.h"
@@ -28,21 +29,14 @@ class Bench {
         wanted_(wanted),
         out_(out) {}
 
-  void machine(const std::string& put_in, const std::string& expected, const std::function<void(Machine&)>& change) {
+  void machine(const std::string& put_in, const std::string& expected, const MachineChange& change) {
     add(put_in, expected, ofMachine(change).file());
   }
 
   /// The same, printed with few significant digits.
-  void printed(int digits, const std::string& put_in, const std::string& expected,
-               const std::function<void(Machine&)>& change) {
-    std::string text = "t_s,tau_1_Nm,tau_2_Nm,tau_3_Nm,tau_4_Nm,tau_5_Nm,tau_6_Nm\n";
-    const TorqueTable torques = ofMachine(change);
-    for (std::size_t k = 0; k < torques.t.size(); ++k) {
-      text += fmt::format("{:.17g}", torques.t[k]);
-      for (int i = 0; i < leg_count; ++i) text += fmt::format(",{:.{}g}", torques.torques[k](i), digits);
-      text += '\n';
-    }
-    add(fmt::format("{}; {} digits", put_in, digits), expected, parseTorqueFile(text, "torques.csv"));
+  void printed(int digits, const std::string& put_in, const std::string& expected, const MachineChange& change) {
+    add(fmt::format("{}; {} digits", put_in, digits), expected,
+        ofMachine(change).printed(fmt::format("{{:.{}g}}", digits)));
   }
 
   void motion(const std::string& put_in, const std::string& expected,
@@ -72,7 +66,7 @@ class Bench {
   const Scenario& scenario() const { return scenario_; }
 
  private:
-  TorqueTable ofMachine(const std::function<void(Machine&)>& change) const {
+  TorqueTable ofMachine(const MachineChange& change) const {
     Machine machine = scenario_.manipulator->parameters();
     change(machine);
     return torquesOf(scenario_, nocSubject(Manipulator(machine), scenario_.load), exact_.t);
@@ -88,10 +82,6 @@ class Bench {
   const std::function<bool()>& wanted_;
   std::vector<InjectedCause>& out_;
 };
-
-std::function<void(Machine&)> ofLegs(const std::function<void(Leg&)>& change) {
-  return [change](Machine& machine) { std::for_each(machine.legs.begin(), machine.legs.end(), change); };
-}
 
 void addToTorques(Bench& out) {
   out.torques("every torque in kN m", "(kN m for N m)", [](std::size_t, Vector6d& tau) { tau *= 1e-3; });
@@ -144,51 +134,51 @@ void addMasses(Bench& out) {
 
 void addLinks(Bench& out) {
   out.machine("mass of every proximal link + 3 %", "mass of the proximal links",
-              ofLegs([](Leg& l) { l.proximal.mass *= 1.03; }));
+              ofEachLeg([](Leg& l) { l.proximal.mass *= 1.03; }));
   out.machine("mass of every distal link - 5 %", "mass of the distal links",
-              ofLegs([](Leg& l) { l.distal.mass *= 0.95; }));
+              ofEachLeg([](Leg& l) { l.distal.mass *= 0.95; }));
   out.machine("mass of every link + 10 %", "mass of all links",
-              ofLegs([](Leg& l) { l.proximal.mass *= 1.1, l.distal.mass *= 1.1; }));
+              ofEachLeg([](Leg& l) { l.proximal.mass *= 1.1, l.distal.mass *= 1.1; }));
   out.machine("mass of leg 3's distal link + 1 %", "mass of the distal link of leg 3",
               [](Machine& m) { m.legs[2].distal.mass *= 1.01; });
   out.machine("mass of leg 2's links + 1 %", "mass of both links of leg 2",
               [](Machine& m) { m.legs[1].distal.mass *= 1.01, m.legs[1].proximal.mass *= 1.01; });
   out.machine("mass centres of distal links - 7 %", "mass centre of the distal links",
-              ofLegs([](Leg& l) { l.distal.center_of_mass *= 0.93; }));
+              ofEachLeg([](Leg& l) { l.distal.center_of_mass *= 0.93; }));
   out.machine("mass centres of proximal links + 5 %", "mass centre of the proximal links",
-              ofLegs([](Leg& l) { l.proximal.center_of_mass *= 1.05; }));
+              ofEachLeg([](Leg& l) { l.proximal.center_of_mass *= 1.05; }));
   out.machine("mass centre of leg 4's proximal link + 2 %", "mass centre of the proximal link of leg 4",
               [](Machine& m) { m.legs[3].proximal.center_of_mass *= 1.02; });
   out.machine("mass centres of all links - 4 %", "mass centre of all links",
-              ofLegs([](Leg& l) { l.proximal.center_of_mass *= 0.96, l.distal.center_of_mass *= 0.96; }));
+              ofEachLeg([](Leg& l) { l.proximal.center_of_mass *= 0.96, l.distal.center_of_mass *= 0.96; }));
   out.machine("mass centres of distal links at R", "mass centres of the distal links at their first joints",
-              ofLegs([](Leg& l) { l.distal.center_of_mass = 0; }));
+              ofEachLeg([](Leg& l) { l.distal.center_of_mass = 0; }));
   out.printed(5, "mass centres of distal links - 7 %", "mass centre of the distal links",
-              ofLegs([](Leg& l) { l.distal.center_of_mass *= 0.93; }));
+              ofEachLeg([](Leg& l) { l.distal.center_of_mass *= 0.93; }));
   out.machine("inertias of links about their first joints", "inertias of all links about the first joint",
-              ofLegs([](Leg& l) {
+              ofEachLeg([](Leg& l) {
                 for (Link* link : {&l.proximal, &l.distal}) {
                   const double more = link->mass * link->center_of_mass * link->center_of_mass;
                   link->inertia(0, 0) += more, link->inertia(1, 1) += more;
                 }
               }));
   out.machine("inertias of proximal and distal links exchanged", "proximal and distal inertias exchanged",
-              ofLegs([](Leg& l) { std::swap(l.proximal.inertia, l.distal.inertia); }));
+              ofEachLeg([](Leg& l) { std::swap(l.proximal.inertia, l.distal.inertia); }));
 }
 
 void addGeometry(Bench& out) {
   out.machine("length of every proximal link + 1 mm", "length of the proximal links",
-              ofLegs([](Leg& l) { l.proximal.length += 0.001; }));
+              ofEachLeg([](Leg& l) { l.proximal.length += 0.001; }));
   out.machine("length of every distal link - 5 mm", "length of the distal links",
-              ofLegs([](Leg& l) { l.distal.length -= 0.005; }));
+              ofEachLeg([](Leg& l) { l.distal.length -= 0.005; }));
   out.machine("length of all links + 1 %", "length of all links",
-              ofLegs([](Leg& l) { l.proximal.length *= 1.01, l.distal.length *= 1.01; }));
+              ofEachLeg([](Leg& l) { l.proximal.length *= 1.01, l.distal.length *= 1.01; }));
   out.machine("length of leg 1's distal link + 2 mm", "length of the distal link of leg 1",
               [](Machine& m) { m.legs[0].distal.length += 0.002; });
   out.machine("base point of leg 2 off by 1 mm along y", "base point y of leg 2",
               [](Machine& m) { m.legs[1].base_point.y() += 0.001; });
   out.machine("base points 2 mm higher", "base point z of every leg",
-              ofLegs([](Leg& l) { l.base_point.z() += 0.002; }));
+              ofEachLeg([](Leg& l) { l.base_point.z() += 0.002; }));
   out.machine("platform point of leg 5 off by 1 mm along x", "platform point x of leg 5",
               [](Machine& m) { m.legs[4].platform_point.x() += 0.001; });
   out.machine("base axis of leg 6 turned by 0.5 deg", "base axis", [](Machine& m) {
@@ -196,12 +186,12 @@ void addGeometry(Bench& out) {
     u = Eigen::AngleAxisd(0.00872664625997165, u.unitOrthogonal()) * u;
   });
   out.machine("base axes without z", "base axes without their part along z",
-              ofLegs([](Leg& l) { l.base_axis.z() = 0; }));
+              ofEachLeg([](Leg& l) { l.base_axis.z() = 0; }));
   const auto other_knee = [](Leg& l) { l.knee = l.knee == Knee::positive ? Knee::negative : Knee::positive; };
   out.machine("the other knee on leg 3", "the other knee on leg 3", [&](Machine& m) { other_knee(m.legs[2]); });
   out.machine("the other knee on legs 1 and 4", "the other knee on legs 1, 4",
               [&](Machine& m) { other_knee(m.legs[0]), other_knee(m.legs[3]); });
-  out.machine("the other knee everywhere", "the other knee on every leg", ofLegs(other_knee));
+  out.machine("the other knee everywhere", "the other knee on every leg", ofEachLeg(other_knee));
 }
 
 void addMotions(Bench& out) {
@@ -220,8 +210,8 @@ void addMotions(Bench& out) {
 
 void addFriction(Bench& out) {
   out.machine("viscous friction of 5 on every phi", "viscous friction on every phi of 5",
-              ofLegs([](Leg& l) { l.friction.phi += 5; }));
-  out.machine("no friction", "friction left out", ofLegs([](Leg& l) {
+              ofEachLeg([](Leg& l) { l.friction.phi += 5; }));
+  out.machine("no friction", "friction left out", ofEachLeg([](Leg& l) {
                 l.friction = {};
                 l.coulomb.phi = l.coulomb.psi = l.coulomb.theta = 0;
               }));

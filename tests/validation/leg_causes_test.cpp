@@ -4,67 +4,21 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <functional>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "model/instants.h"
-#include "model/scenario.h"
-#include "tests/support/motions.h"
-#include "validation/causes/diagnosis.h"
-#include "validation/mistakes/tried_causes.h"
-#include "validation/subject/torque_file.h"
+#include "tests/validation/wrong_solvers.h"
 
 namespace ursula {
 namespace {
 
-using Machine = ManipulatorParameters;
-using LegChange = std::function<void(Machine&)>;
-using Efforts = std::function<Vector6d(const Motion<double>&)>;
-
-const Scenario& hexapod() {
-  static const Scenario scenario = [] {
-    Scenario out = readScenario(std::string(URSULA_SOURCE) + "/apps/starting/UPS.toml");
-    out.trajectory = std::shared_ptr<const Trajectory>(tumbling(out, 3));
-    Machine machine = out.manipulator->parameters();
+const Trial& hexapod() {
+  static const Trial trial{changed(tumblingOf("/apps/starting/UPS.toml"), [](Machine& machine) {
     machine.platform.center_of_mass = {0.05, -0.03, 0.2};
     for (Leg& leg : machine.legs) {
       leg.friction.phi = 2, leg.friction.psi = 3, leg.friction.d = 120;
       leg.proximal.center_of_mass = 0.4;
     }
-    out.manipulator = std::make_shared<Manipulator>(machine);
-    return out;
-  }();
-  return scenario;
-}
-
-std::vector<double> sampled() { return equallySpaced(hexapod().trajectory->duration(), 41); }
-
-Diagnosis saidOf(const std::vector<Vector6d>& efforts) {
-  const GivenTorques given{"solver", sampled(), efforts};
-  return diagnose(hexapod(), runExternal(hexapod(), torqueFileOf(given, hexapod().manipulator->motors())));
-}
-
-std::vector<Vector6d> answersAlong(const Efforts& efforts) {
-  std::vector<Vector6d> out;
-  for (const double t : sampled()) out.push_back(efforts(hexapod().trajectory->at(t)));
-  return out;
-}
-
-Efforts solverWith(const LegChange& change) {
-  Machine machine = hexapod().manipulator->parameters();
-  change(machine);
-  return nocSubject(withoutStroke(Manipulator(machine)), nullptr).torques;
-}
-
-Diagnosis saidOf(const LegChange& change) { return saidOf(answersAlong(solverWith(change))); }
-
-LegChange ofEachLeg(const std::function<void(Leg&)>& change) {
-  return [change](Machine& machine) {
-    for (Leg& leg : machine.legs) change(leg);
-  };
+  })};
+  return trial;
 }
 
 Matrix3d turnAbout(double degrees) {
@@ -73,37 +27,34 @@ Matrix3d turnAbout(double degrees) {
 
 /// The mass centre is a number of the dynamics, and off more often than the length.
 TEST(LegCause, aRodsLengthAndMassCentreAreOneNumberAndBothSaid) {
-  for (const LegChange& change :
+  for (const MachineChange& change :
        {ofEachLeg([](Leg& leg) { leg.distal.center_of_mass += 0.1; }), ofEachLeg([](Leg& leg) {
           leg.distal.length -= 0.1;
           leg.proximal.length += 1;
         })}) {
-    const Diagnosis tied = saidOf(change);
-    ASSERT_TRUE(tied.named) << tied.cause;
-    EXPECT_EQ(tied.named->parameter, "manipulator.leg_defaults.distal.center_of_mass");
+    const Diagnosis tied = hexapod().said(change);
+    EXPECT_EQ(named(tied, CauseKind::parameter).parameter, "manipulator.leg_defaults.distal.center_of_mass");
     EXPECT_THAT(tied.cause, testing::HasSubstr("mass centre of the distal links 0.6 "));
     EXPECT_THAT(tied.cause, testing::HasSubstr("length of the distal links 0.9 "));
     ASSERT_EQ(tied.others.size(), 1u) << tied.cause;
     EXPECT_EQ(tied.others[0].parameter, "manipulator.leg_defaults.distal.length");
   }
-  const Diagnosis alone = saidOf(ofEachLeg([](Leg& leg) { leg.proximal.center_of_mass += 0.1; }));
-  ASSERT_TRUE(alone.named) << alone.cause;
-  EXPECT_EQ(alone.named->parameter, "manipulator.leg_defaults.proximal.center_of_mass");
+  const Diagnosis alone = hexapod().said(ofEachLeg([](Leg& leg) { leg.proximal.center_of_mass += 0.1; }));
+  EXPECT_EQ(named(alone, CauseKind::parameter).parameter, "manipulator.leg_defaults.proximal.center_of_mass");
 }
 
 TEST(LegCause, pointsThatMoveTogetherAreOneShift) {
   for (const double z : {-0.003, -0.06}) {
-    const Diagnosis lower = saidOf(ofEachLeg([z](Leg& leg) { leg.platform_point.z() += z; }));
-    ASSERT_TRUE(lower.named) << lower.cause;
-    EXPECT_EQ(lower.named->parameter, "manipulator.leg_defaults.platform_point.2");
-    EXPECT_LT(lower.named->uncertainty.value(), 1e-9);
-    EXPECT_NEAR(lower.named->found.value(), z, lower.named->uncertainty.value() + 1e-14);
+    const NamedCause lower =
+        named(hexapod().said(ofEachLeg([z](Leg& leg) { leg.platform_point.z() += z; })), CauseKind::parameter);
+    EXPECT_EQ(lower.parameter, "manipulator.leg_defaults.platform_point.2");
+    EXPECT_LT(lower.uncertainty.value(), 1e-9);
+    EXPECT_NEAR(lower.found.value(), z, lower.uncertainty.value() + 1e-14);
   }
-  const Diagnosis aside = saidOf(ofEachLeg([](Leg& leg) { leg.base_point.x() += 0.02; }));
-  ASSERT_TRUE(aside.named) << aside.cause;
-  EXPECT_EQ(aside.named->parameter, "manipulator.leg_defaults.base_point.0");
+  const Diagnosis aside = hexapod().said(ofEachLeg([](Leg& leg) { leg.base_point.x() += 0.02; }));
+  EXPECT_EQ(named(aside, CauseKind::parameter).parameter, "manipulator.leg_defaults.base_point.0");
   EXPECT_THAT(aside.cause, testing::HasSubstr("base point x of every leg off by 0.02 "));
-  const Diagnosis unequal = saidOf([](Machine& machine) {
+  const Diagnosis unequal = hexapod().said([](Machine& machine) {
     for (Leg& leg : machine.legs) leg.platform_point.z() -= 0.03;
     machine.legs[2].platform_point.z() -= 0.002;
   });
@@ -112,7 +63,7 @@ TEST(LegCause, pointsThatMoveTogetherAreOneShift) {
 
 /// A fit's remainder with a pattern is another error: the fitted number is no more certain than that.
 TEST(LegCause, aPartOfTwoErrorsIsAsUncertainAsWhatRemains) {
-  const Diagnosis two = saidOf([](Machine& machine) {
+  const Diagnosis two = hexapod().said([](Machine& machine) {
     for (Leg& leg : machine.legs) leg.platform_point.z() -= 0.03;
     machine.legs[2].platform_point.z() -= 0.0002;
   });
@@ -129,7 +80,7 @@ TEST(LegCause, aPartOfTwoErrorsIsAsUncertainAsWhatRemains) {
 
 struct LegFault {
   std::string words;
-  LegChange change;
+  MachineChange change;
   std::string parameter;
 };
 
@@ -159,50 +110,45 @@ TEST(LegCause, pointsAndAxesOfAllLegsAreNamed) {
       {"base axes along z", ofEachLeg([](Leg& leg) { leg.base_axis = Vector3d::UnitZ(); }), axis},
       {"base axes along the radii", ofEachLeg([](Leg& leg) { leg.base_axis = leg.base_point; }), axis}};
   for (const LegFault& fault : faults) {
-    const Diagnosis found = saidOf(fault.change);
-    ASSERT_TRUE(found.named) << fault.words << ": " << found.cause;
-    EXPECT_EQ(found.named->kind, CauseKind::parameter) << found.cause;
-    EXPECT_EQ(found.named->parameter, fault.parameter) << found.cause;
+    const Diagnosis found = hexapod().said(fault.change);
+    EXPECT_EQ(named(found, CauseKind::parameter).parameter, fault.parameter);
     EXPECT_THAT(found.cause, testing::HasSubstr(fault.words));
   }
   const Diagnosis both =
-      saidOf(ofEachLeg([](Leg& leg) { leg.platform_point = 1.1 * (turnAbout(60) * leg.platform_point); }));
+      hexapod().said(ofEachLeg([](Leg& leg) { leg.platform_point = 1.1 * (turnAbout(60) * leg.platform_point); }));
   EXPECT_FALSE(both.named) << both.cause;
 }
 
 TEST(LegCause, frictionOfTheDrivenJointsIsToldFromTheOthers) {
   const auto with = [](double passive, double driven) {
-    const Efforts without = solverWith(ofEachLeg([=](Leg& leg) {
+    const Answering without = hexapod().solver(ofEachLeg([=](Leg& leg) {
       leg.friction.d = 0;
       if (passive == 0) leg.friction = {};
     }));
     return [=](const Motion<double>& motion) {
-      const Vector6d rates = nocSubject(*hexapod().manipulator, nullptr)
+      const Vector6d rates = nocSubject(*hexapod().scenario.manipulator, nullptr)
                                  .kinematics(motion)
-                                 .joints.q_dot.driven(hexapod().manipulator->motors());
+                                 .joints.q_dot.driven(hexapod().scenario.manipulator->motors());
       return Vector6d(without(motion) + driven * 120 * rates);
     };
   };
-  const Diagnosis left_out = saidOf(answersAlong(with(1, 0))), opposite = saidOf(answersAlong(with(1, -1))),
-                  none = saidOf(answersAlong(with(0, 0)));
-  ASSERT_TRUE(left_out.named && opposite.named && none.named) << opposite.cause;
-  EXPECT_EQ(left_out.named->kind, CauseKind::missing_term) << left_out.cause;
-  EXPECT_EQ(left_out.named->parameter, "manipulator.leg_defaults.friction.d");
-  EXPECT_EQ(opposite.named->kind, CauseKind::sign) << opposite.cause;
-  EXPECT_EQ(opposite.named->term, "friction");
-  EXPECT_EQ(opposite.named->parameter, "manipulator.leg_defaults.friction.d");
-  EXPECT_EQ(none.named->kind, CauseKind::missing_term) << none.cause;
-  EXPECT_EQ(none.named->parameter, "") << "friction of all joints";
+  const auto said = [&](double passive, double driven) {
+    return hexapod().said(hexapod().answers(with(passive, driven)));
+  };
+  EXPECT_EQ(named(said(1, 0), CauseKind::missing_term).parameter, "manipulator.leg_defaults.friction.d");
+  const NamedCause opposite = named(said(1, -1), CauseKind::sign);
+  EXPECT_EQ(opposite.term, "friction");
+  EXPECT_EQ(opposite.parameter, "manipulator.leg_defaults.friction.d");
+  EXPECT_EQ(named(said(0, 0), CauseKind::missing_term).parameter, "") << "friction of all joints";
 }
 
 TEST(LegCause, aWrongJacobianIsNamedBeforeTheMotorsFriction) {
-  const Efforts without = solverWith(ofEachLeg([](Leg& leg) { leg.friction.d = 0; }));
-  Machine bare = hexapod().manipulator->parameters();
-  for (Leg& leg : bare.legs) leg.friction.d = 0;
+  const Answering without = hexapod().solver(ofEachLeg([](Leg& leg) { leg.friction.d = 0; }));
+  const Scenario bare = changed(hexapod().scenario, ofEachLeg([](Leg& leg) { leg.friction.d = 0; }));
   const auto added = [&](const std::function<Vector6d(const MachineTerms&)>& wrong) {
-    const Subject right = nocSubject(*hexapod().manipulator, nullptr);
-    return saidOf(answersAlong([&](const Motion<double>& motion) {
-      return Vector6d(wrong(machineTerms(Manipulator(bare), nullptr, motion)) + right.torques(motion) -
+    const Subject right = nocSubject(*hexapod().scenario.manipulator, nullptr);
+    return hexapod().said(hexapod().answers([&](const Motion<double>& motion) {
+      return Vector6d(wrong(machineTerms(*bare.manipulator, nullptr, motion)) + right.torques(motion) -
                       without(motion));
     }));
   };
@@ -213,8 +159,7 @@ TEST(LegCause, aWrongJacobianIsNamedBeforeTheMotorsFriction) {
         added([&](const MachineTerms& machine) {
           return Vector6d(machine.T_P.transpose() * exchanged * machine.forceAtP());
         })}) {
-    ASSERT_TRUE(found.named) << found.cause;
-    EXPECT_EQ(found.named->kind, CauseKind::jacobian) << found.cause;
+    named(found, CauseKind::jacobian);
     EXPECT_THAT(found.cause, testing::HasSubstr("before the motors' own friction"));
   }
   const Diagnosis half = added([](const MachineTerms& machine) {
@@ -225,33 +170,29 @@ TEST(LegCause, aWrongJacobianIsNamedBeforeTheMotorsFriction) {
 
 TEST(LegCause, rodsThatDoNotSlideAreNamed) {
   const auto rods = [](const std::function<double(double along)>& left_out) {
-    return saidOf(answersAlong([=](const Motion<double>& motion) {
-      const Subject noc = nocSubject(*hexapod().manipulator, nullptr);
-      const Vector6d along = noc.kinematics(motion).joints.q_ddot.driven(hexapod().manipulator->motors());
+    return hexapod().said(hexapod().answers([=](const Motion<double>& motion) {
+      const Subject noc = nocSubject(*hexapod().scenario.manipulator, nullptr);
+      const Vector6d along = noc.kinematics(motion).joints.q_ddot.driven(hexapod().scenario.manipulator->motors());
       return Vector6d(noc.torques(motion) - along.unaryExpr(left_out));
     }));
   };
   const Diagnosis along = rods([](double each) { return 12 * each; });
-  ASSERT_TRUE(along.named) << along.cause;
-  EXPECT_EQ(along.named->kind, CauseKind::missing_term);
-  EXPECT_EQ(along.named->body, "distal");
+  EXPECT_EQ(named(along, CauseKind::missing_term).body, "distal");
   EXPECT_FALSE(rods([](double each) { return 7 * each; }).named) << "no body has this mass";
-  std::vector<Motion<double>> motions;
-  for (const double t : sampled()) motions.push_back(hexapod().trajectory->at(t));
+  const std::vector<Motion<double>> motions = hexapod().motions();
   std::size_t seen = 0;
-  for (const Cause& cause : causesOf(hexapod(), addSlidingCauses)) {
+  for (const Cause& cause : causesOf(hexapod().scenario, addSlidingCauses)) {
     if (!cause.fitted) continue;
     ++seen;
-    const Diagnosis fixed = saidOf(cause.torques(0.9, motions));
-    ASSERT_TRUE(fixed.named) << fixed.cause;
-    EXPECT_EQ(fixed.named->kind, CauseKind::reference_point);
+    const Diagnosis fixed = hexapod().said(cause.torques(0.9, motions));
+    named(fixed, CauseKind::reference_point);
     EXPECT_THAT(fixed.cause, testing::HasSubstr("fixed at 0.9 "));
   }
   EXPECT_EQ(seen, 2u);
 }
 
 /// NumPy's gradient with its usual ends, of velocities.
-std::vector<Vector6d> withGradients(bool velocities, const std::vector<Motion<double>>& motions) {
+Rows withGradients(bool velocities, const std::vector<Motion<double>>& motions) {
   const auto gradient = [&](const auto& of) {
     std::vector<Vector3d> out;
     const double h = motions[1].t - motions[0].t;
@@ -267,53 +208,50 @@ std::vector<Vector6d> withGradients(bool velocities, const std::vector<Motion<do
     for (std::size_t k = 0; k < v.size(); ++k) v[k] = motions[k].p_dot;
   const std::vector<Vector3d> a = gradient([&](std::size_t k) -> Vector3d { return v[k]; }),
                               alpha = gradient([&](std::size_t k) -> Vector3d { return motions[k].omega; });
-  std::vector<Vector6d> out;
+  Rows out;
   for (std::size_t k = 0; k < motions.size(); ++k) {
     Motion<double> motion = motions[k];
     motion.p_dot = v[k], motion.p_ddot = a[k], motion.omega_dot = alpha[k];
-    out.push_back(nocSubject(*hexapod().manipulator, nullptr).torques(motion));
+    out.push_back(nocSubject(*hexapod().scenario.manipulator, nullptr).torques(motion));
   }
   return out;
 }
 
 TEST(LegCause, differencesOfTheGivenInstantsAreNotNoise) {
-  std::vector<Motion<double>> motions;
-  for (const double t : sampled()) motions.push_back(hexapod().trajectory->at(t));
+  const std::vector<Motion<double>> motions = hexapod().motions();
   for (const bool velocities : {false, true}) {
-    const std::vector<Vector6d> efforts = withGradients(velocities, motions);
-    const Diagnosis found = saidOf(efforts);
+    const Rows efforts = withGradients(velocities, motions);
+    const Diagnosis found = hexapod().said(efforts);
     EXPECT_THAT(found.cause, testing::HasSubstr("differences of"));
     EXPECT_THAT(found.cause, testing::HasSubstr("one-sided at the ends, which explains more than 99.9999 %"));
     EXPECT_FALSE(found.named) << "the contract has no name for it";
-    std::vector<Vector6d> worse = efforts;  // of another rule that is as wrong at the ends
-    const std::vector<Vector6d> right = answersAlong(nocSubject(*hexapod().manipulator, nullptr).torques);
+    Rows worse = efforts;  // of another rule that is as wrong at the ends
+    const Rows right = hexapod().right();
     for (std::size_t k = 0; k < worse.size(); ++k) worse[k] += 0.4 * (worse[k] - right[k]);
-    EXPECT_EQ(saidOf(worse).cause.find("no pattern"), std::string::npos) << saidOf(worse).cause;
+    EXPECT_EQ(hexapod().said(worse).cause.find("no pattern"), std::string::npos) << hexapod().said(worse).cause;
   }
 }
 
 /// Errors that a number for each motor explains in part.
 TEST(LegCause, asManyNumbersAsMotorsAreNotTheBest) {
-  const std::vector<Vector6d> right = answersAlong(nocSubject(*hexapod().manipulator, nullptr).torques);
+  const Rows right = hexapod().right();
   const auto off = [&](double noise) {
     SeededDraws dice(4);
-    std::vector<Vector6d> out = right;
+    Rows out = right;
     for (Vector6d& row : out)
       for (int i = 0; i < motor_count; ++i) row(i) += 30 * (i + 1) + noise * dice.between(-1, 1);
-    return saidOf(out);
+    return hexapod().said(out);
   };
   EXPECT_EQ(off(50).cause.find("offset"), std::string::npos) << off(50).cause;
-  const Diagnosis pure = off(0);
-  ASSERT_TRUE(pure.named) << pure.cause;
-  EXPECT_EQ(pure.named->kind, CauseKind::offset);
+  named(off(0), CauseKind::offset);
 }
 
 /// Little is left of the deviation, but much of the little that was answered.
 TEST(LegCause, whatExplainsNearlyAllIsNotOnly) {
-  const Efforts weightless = solverWith([](Machine& machine) { machine.gravity.setZero(); });
+  const Answering weightless = hexapod().solver([](Machine& machine) { machine.gravity.setZero(); });
   const auto off = [&](double noise) {
     SeededDraws dice(4);
-    return saidOf(answersAlong([&](const Motion<double>& motion) {
+    return hexapod().said(hexapod().answers([&](const Motion<double>& motion) {
       return Vector6d(weightless(motion) + noise * Vector6d::NullaryExpr([&] { return dice.between(-1, 1); }));
     }));
   };

@@ -7,19 +7,12 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <functional>
-#include <memory>
 #include <set>
-#include <string>
 
-#include "model/instants.h"
-#include "model/scenario.h"
 #include "nocsolver/errors.h"
-#include "tests/support/motions.h"
-#include "validation/causes/diagnosis.h"
+#include "tests/validation/wrong_solvers.h"
 #include "validation/causes/fits.h"
 #include "validation/limits/conditioning.h"
-#include "validation/subject/torque_file.h"
 
 namespace ursula {
 namespace {
@@ -115,23 +108,21 @@ TEST_P(Terms, softLoopsAreNamedAndNothingAlike) {
 }
 
 /// A telescopic machine with rotors, Coulomb friction and a load, on a motion that turns about every axis.
-Scenario withRotors() {
-  Scenario scenario = readScenario(std::string(URSULA_SOURCE) + "/apps/starting/UPS.toml");
-  scenario.trajectory = std::shared_ptr<const Trajectory>(tumbling(scenario, 3));
-  ManipulatorParameters machine = scenario.manipulator->parameters();
-  machine.platform.inertia << 50, 4, -3, 4, 60, 5, -3, 5, 95;
-  machine.platform.center_of_mass = {0.05, -0.03, 0.2};
-  for (Leg& leg : machine.legs) {
-    leg.rotor_inertia.d = 30;
-    leg.coulomb.phi = leg.coulomb.psi = leg.coulomb.d = 5;
-    leg.coulomb.smoothing_speed = leg.coulomb.sliding_speed = 0.02;
-  }
-  scenario.manipulator = std::make_shared<Manipulator>(machine);
+Trial withRotors() {
+  Scenario scenario = changed(tumblingOf("/apps/starting/UPS.toml"), [](Machine& machine) {
+    machine.platform.inertia << 50, 4, -3, 4, 60, 5, -3, 5, 95;
+    machine.platform.center_of_mass = {0.05, -0.03, 0.2};
+    for (Leg& leg : machine.legs) {
+      leg.rotor_inertia.d = 30;
+      leg.coulomb.phi = leg.coulomb.psi = leg.coulomb.d = 5;
+      leg.coulomb.smoothing_speed = leg.coulomb.sliding_speed = 0.02;
+    }
+  });
   Load load;
   load.force = {40, -30, 20};
   load.point = {0.2, 0.1, -0.3};
   scenario.load = std::make_shared<Load>(load);
-  return scenario;
+  return {scenario, 31};
 }
 
 std::vector<Cause> causesLike(const Scenario& scenario, const std::string& words) {
@@ -146,21 +137,14 @@ std::vector<Cause> causesLike(const Scenario& scenario, const std::string& words
 class Mistake : public testing::TestWithParam<const char*> {};
 
 TEST_P(Mistake, isNamedAsItself) {
-  const Scenario scenario = withRotors();
-  const std::vector<Cause> causes = causesLike(scenario, GetParam());
+  const Trial trial = withRotors();
+  const std::vector<Cause> causes = causesLike(trial.scenario, GetParam());
   ASSERT_EQ(causes.size(), 1u);
-  GivenTorques given{"solver", equallySpaced(scenario.trajectory->duration(), 31), {}};
-  std::vector<Motion<double>> motions;
-  for (const double t : given.t) motions.push_back(scenario.trajectory->at(t));
   const double x = causes.front().fitted ? std::log(7.0) : 0;
-  given.torques = causes.front().torques(x, motions);
-  const Diagnosis found =
-      diagnose(scenario, runExternal(scenario, torqueFileOf(given, scenario.manipulator->motors())));
-  ASSERT_TRUE(found.named) << found.cause;
   const NamedCause expected = causes.front().named(x, 0).value();
-  EXPECT_EQ(found.named->kind, expected.kind) << found.cause;
-  EXPECT_EQ(found.named->term, expected.term) << found.cause;
-  EXPECT_EQ(found.named->parameter, expected.parameter) << found.cause;
+  const NamedCause found = named(trial.said(causes.front().torques(x, trial.motions())), expected.kind);
+  EXPECT_EQ(found.term, expected.term);
+  EXPECT_EQ(found.parameter, expected.parameter);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -192,69 +176,42 @@ INSTANTIATE_TEST_SUITE_P(
 
 /// A solver that reads the motion wrongly, and whose legs have no end of stroke.
 TEST(ReadingCause, isNamedBeyondTheStrokeAndOfBothRates) {
-  const Scenario scenario = withRotors();
-  ManipulatorParameters longer = scenario.manipulator->parameters();
-  for (Leg& leg : longer.legs) {
-    leg.proximal.length = 9;
-    leg.distal.length -= 0.9;
-    leg.distal.center_of_mass -= 0.9;  // at the same place
-  }
-  const Subject solver = nocSubject(Manipulator(longer), scenario.load);
-  const auto diagnosed = [&](const std::function<void(Motion<double>&)>& misread) {
-    GivenTorques given{"solver", equallySpaced(scenario.trajectory->duration(), 31), {}};
-    for (const double t : given.t) {
-      Motion<double> motion = scenario.trajectory->at(t);
+  const Trial trial = withRotors();
+  const auto said = [&](const std::function<void(Motion<double>&)>& misread) {
+    return trial.said(trial.answers([&](Motion<double> motion) {
       misread(motion);
-      given.torques.push_back(solver.torques(motion));
-    }
-    return diagnose(scenario, runExternal(scenario, torqueFileOf(given, scenario.manipulator->motors())));
-  };
-  const auto expect = [](const Diagnosis& found, CauseKind kind, const char* term) {
-    ASSERT_TRUE(found.named) << found.cause;
-    EXPECT_EQ(found.named->kind, kind) << found.cause;
-    EXPECT_EQ(found.named->term, term) << found.cause;
+      return trial.solver()(motion);
+    }));
   };
   const auto x_first = [](Motion<double>& motion) {
     const Eigen::Quaterniond q(motion.Q);
     motion.Q = Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()).toRotationMatrix();
   };
-  Motion<double> turned = scenario.trajectory->at(0);
+  Motion<double> turned = trial.motions().front();
   x_first(turned);
-  EXPECT_THROW(nocSubject(*scenario.manipulator, scenario.load).torques(turned), PoseError)
+  EXPECT_THROW(nocSubject(*trial.scenario.manipulator, trial.scenario.load).torques(turned), PoseError)
       << "it is not beyond the stroke";
-  expect(diagnosed(x_first), CauseKind::frame, "orientation");
-  expect(diagnosed([](Motion<double>& motion) {
-           motion.omega *= 180 / M_PI;
-           motion.omega_dot *= 180 / M_PI;
-         }),
-         CauseKind::units, "angular_velocity");
-  expect(diagnosed([](Motion<double>& motion) { motion.omega /= 2; }), CauseKind::scale, "angular_velocity");
-  EXPECT_TRUE(diagnosed([](const Motion<double>&) {}).summary.empty()) << "of right efforts nothing is said";
+  EXPECT_EQ(named(said(x_first), CauseKind::frame).term, "orientation");
+  const auto in_degrees = [](Motion<double>& motion) {
+    motion.omega *= 180 / M_PI;
+    motion.omega_dot *= 180 / M_PI;
+  };
+  EXPECT_EQ(named(said(in_degrees), CauseKind::units).term, "angular_velocity");
+  EXPECT_EQ(named(said([](auto& motion) { motion.omega /= 2; }), CauseKind::scale).term, "angular_velocity");
+  EXPECT_TRUE(said([](auto&) {}).summary.empty()) << "of right efforts nothing is said";
 }
 
 /// Torques of a solver that knows nothing of the scenario's rotors, and the other way round.
 TEST(RotorCause, isNamedEitherWayAndNeverNegative) {
-  const Scenario without = readScenario(std::string(URSULA_SOURCE) + "/apps/starting/UPS.toml");
-  Scenario with = without;
-  ManipulatorParameters machine = without.manipulator->parameters();
-  for (Leg& leg : machine.legs) leg.rotor_inertia.d = 30;
-  with.manipulator = std::make_shared<Manipulator>(machine);
-  const auto diagnosed = [](const Scenario& scenario, const Scenario& solver) {
-    GivenTorques given{"solver", equallySpaced(scenario.trajectory->duration(), 61), {}};
-    const Subject noc = nocSubject(*solver.manipulator, nullptr);
-    for (const double t : given.t) given.torques.push_back(noc.torques(scenario.trajectory->at(t)));
-    return diagnose(scenario, runExternal(scenario, torqueFileOf(given, scenario.manipulator->motors())));
-  };
-  for (const bool solver_has : {false, true}) {
-    const Diagnosis found = solver_has ? diagnosed(without, with) : diagnosed(with, without);
-    ASSERT_TRUE(found.named) << found.cause;
-    EXPECT_EQ(found.named->kind, CauseKind::missing_term) << found.cause;
-    EXPECT_EQ(found.named->term, "rotor_inertia") << found.cause;
-    if (!solver_has) continue;
-    EXPECT_NEAR(found.named->found.value(), 30, 1e-6);
-    EXPECT_EQ(found.named->unit, "kg");
-  }
-  EXPECT_TRUE(diagnosed(with, with).summary.empty()) << "of right efforts nothing is said";
+  const Trial without{readScenario(std::string(URSULA_SOURCE) + "/apps/starting/UPS.toml"), 61};
+  const MachineChange add = ofEachLeg([](Leg& leg) { leg.rotor_inertia.d = 30; });
+  const Trial with{changed(without.scenario, add), 61};
+  EXPECT_EQ(named(with.said(without.right()), CauseKind::missing_term).term, "rotor_inertia");
+  const NamedCause added = named(without.said(add), CauseKind::missing_term);
+  EXPECT_EQ(added.term, "rotor_inertia");
+  EXPECT_NEAR(added.found.value(), 30, 1e-6);
+  EXPECT_EQ(added.unit, "kg");
+  EXPECT_TRUE(with.said(with.right()).summary.empty()) << "of right efforts nothing is said";
 }
 
 }  // namespace
