@@ -7,8 +7,11 @@
 #include <map>
 #include <set>
 
+#include "model/machine_numbers.h"
 #include "nocsolver/solver.h"
-#include "studies/random/random_scenario.h"
+#include "tests/studies/drawn_scenarios.h"
+#include "tests/support/vectors.h"
+#include "tests/validation/scenario_numbers.h"
 
 namespace ursula {
 namespace {
@@ -16,6 +19,7 @@ namespace {
 constexpr int drawn = 60;
 
 const std::vector<Scenario>& drawnOf(RandomKind kind) {
+  if (kind == RandomKind::URS) return drawnScenarios();
   static std::map<RandomKind, std::vector<Scenario>> all;
   std::vector<Scenario>& out = all[kind];
   for (std::uint64_t seed = out.size() + 1; seed <= drawn; ++seed) out.push_back(randomScenario(seed, kind));
@@ -26,16 +30,20 @@ class RandomKinds : public testing::TestWithParam<RandomKind> {};
 
 TEST_P(RandomKinds, areTheSeeds) {
   std::set<std::string> texts;
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  const std::string prefix = GetParam() == RandomKind::URS ? "" : std::string(nameOf(GetParam())) + "-";
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const Scenario &first = drawnOf(GetParam())[seed - 1], again = randomScenario(seed, GetParam());
-    const Motion<double> one = first.trajectory->at(0), other = again.trajectory->at(0);
+    const ManipulatorParameters &one = first.manipulator->parameters(), &other = again.manipulator->parameters();
+    for (const MachineNumber& number : machineNumbers(one))
+      ASSERT_EQ(number.get(one), number.get(other)) << number.path;
+    const auto found = motionNumbers(*first.trajectory), same = motionNumbers(*again.trajectory);
+    ASSERT_EQ(found.size(), same.size());
+    for (std::size_t k = 0; k < found.size(); ++k) ASSERT_EQ(found[k].value, same[k].value) << found[k].name;
     EXPECT_EQ(first.text, again.text);
-    EXPECT_EQ(first.name, std::string("random-") + nameOf(GetParam()) + "-" + std::to_string(seed));
-    EXPECT_EQ(one.p, other.p);
-    EXPECT_EQ(one.Q, other.Q);
+    EXPECT_EQ(first.name, "random-" + prefix + std::to_string(seed));
     texts.insert(first.text);
   }
-  EXPECT_EQ(texts.size(), 5u);
+  EXPECT_EQ(texts.size(), 10u);
 }
 
 TEST_P(RandomKinds, haveTheLegsThatWereAskedFor) {
@@ -64,7 +72,8 @@ TEST_P(RandomKinds, haveTheLegsThatWereAskedFor) {
   }
 }
 
-/// Together they drive every coordinate, have both knees, and have friction on every coordinate or on none.
+/// Together they drive every coordinate, of the paper's kind φ alone, have both knees, and have friction on every
+/// coordinate or on none.
 TEST_P(RandomKinds, areOfEveryKind) {
   std::set<std::string> seen;
   for (const Scenario& scenario : drawnOf(GetParam())) {
@@ -78,29 +87,39 @@ TEST_P(RandomKinds, areOfEveryKind) {
   }
   for (const Coordinate q : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d}) {
     if (seen.count(std::string("no ") + nameOf(q)) == 0) continue;  // a coordinate that the kind lacks
-    EXPECT_THAT(seen, testing::IsSupersetOf({std::string(nameOf(q)), std::string("viscous ") + nameOf(q),
-                                             std::string("dry ") + nameOf(q)}));
+    EXPECT_THAT(seen, testing::IsSupersetOf({std::string("viscous ") + nameOf(q), std::string("dry ") + nameOf(q)}));
+    const bool is_passive = GetParam() == RandomKind::URS && q != Coordinate::phi;  // the paper's machine
+    EXPECT_EQ(seen.count(nameOf(q)), is_passive ? 0u : 1u) << nameOf(q);
   }
   EXPECT_THAT(seen, testing::IsSupersetOf({"knee out", "knee in"}));
 }
 
-/// No two legs share a non-zero number.
-TEST_P(RandomKinds, haveLegsThatShareNothing) {
-  for (const Scenario& scenario : drawnOf(GetParam())) {
-    std::map<double, int> owners;
-    const auto own = [&](int leg, double value) {
-      if (value == 0) return;
-      EXPECT_EQ(owners.insert({value, leg}).first->second, leg) << scenario.text << ": " << value;
-    };
-    for (int i = 0; i < scenario.manipulator->legCount(); ++i) {
-      const Leg& leg = scenario.manipulator->leg(i);
-      for (const Link* link : {&leg.proximal, &leg.distal})
-        for (const double value : {link->length, link->mass, link->inertia(0, 1)}) own(i, value);
-      for (const Coordinate q : rowOf(leg.kind).coordinates)
-        for (const double value : {leg.friction.on(q), leg.coulomb.on(q)}) own(i, value);
-      own(i, leg.coulomb.smoothing_speed);
-    }
+/// The numbers of legs that are equal on another leg.
+std::vector<std::string> sharedByLegs(const ManipulatorParameters& machine) {
+  std::map<double, std::pair<std::string, int>> owners;
+  std::vector<std::string> out;
+  for (const MachineNumber& number : machineNumbers(machine)) {
+    const double value = number.get(machine);
+    if (number.leg < 0 || value == 0) continue;
+    const auto [owner, is_new] = owners.insert({value, {number.path, number.leg}});
+    if (!is_new && owner->second.second != number.leg) out.push_back(owner->second.first + " = " + number.path);
   }
+  return out;
+}
+
+TEST_P(RandomKinds, haveLegsThatShareNothing) {
+  for (const Scenario& scenario : drawnOf(GetParam()))
+    ASSERT_THAT(sharedByLegs(scenario.manipulator->parameters()), testing::IsEmpty()) << scenario.text;
+}
+
+TEST(RandomMachines, wouldBeFoundOutWithSharedLegs) {
+  const ManipulatorParameters machine = drawnScenarios().front().manipulator->parameters();
+  ManipulatorParameters friction = machine, twins = machine;
+  friction.legs[4].coulomb.smoothing_speed = friction.legs[1].coulomb.smoothing_speed;
+  EXPECT_THAT(sharedByLegs(friction), testing::ElementsAre("manipulator.leg.2.coulomb.smoothing_speed = "
+                                                           "manipulator.leg.5.coulomb.smoothing_speed"));
+  twins.legs[5] = twins.legs[0];
+  EXPECT_GE(sharedByLegs(twins).size(), 28u);
 }
 
 /// This checks more instants than the generator did.
@@ -109,8 +128,8 @@ TEST_P(RandomKinds, followTheirWholeMotion) {
     const Solver<double> solver(*scenario.manipulator);
     Workspace<double> work;
     double least = INFINITY, largest = -INFINITY;
-    for (int k = 0; k <= 200; ++k) {
-      const Motion<double> motion = scenario.trajectory->at(scenario.trajectory->duration() * k / 200);
+    for (int k = 0; k <= 400; ++k) {
+      const Motion<double> motion = scenario.trajectory->at(scenario.trajectory->duration() * k / 400);
       ASSERT_NO_THROW(solver.inverseKinematics(motion, work)) << scenario.text;
       solver.jacobians(motion, work);
       for (int i = 0; i < scenario.manipulator->legCount(); ++i) {
@@ -140,19 +159,11 @@ TEST_P(RandomKinds, areSolvedAlikeInAnyWorkspace) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, RandomKinds,
-                         testing::Values(RandomKind::UPS, RandomKind::RUS, RandomKind::PUS, RandomKind::mixture,
-                                         RandomKind::two_motors),
-                         [](const auto& kind) {
-                           std::string name = nameOf(kind.param);
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+                         testing::Values(RandomKind::URS, RandomKind::UPS, RandomKind::RUS, RandomKind::PUS,
+                                         RandomKind::mixture, RandomKind::two_motors),
+                         [](const auto& kind) { return asTestName(nameOf(kind.param)); });
 
-TEST(RandomScenario, ofThePaperIsTheDefault) {
-  const Scenario scenario = randomScenario(1);
-  EXPECT_EQ(scenario.name, "random-1");
-  EXPECT_TRUE(scenario.manipulator->isOfThePaper());
-}
+TEST(RandomScenario, ofThePaperIsTheDefault) { EXPECT_EQ(randomScenario(1).text, drawnScenarios().front().text); }
 
 }  // namespace
 }  // namespace ursula

@@ -45,19 +45,6 @@ std::vector<std::string> constantsOf(std::vector<ManipulatorParameters> all) {
   return constantsIn(seen, all.size() / 5);
 }
 
-/// The numbers of legs that are equal on another leg.
-std::vector<std::string> sharedByLegs(const ManipulatorParameters& machine) {
-  std::map<double, std::pair<std::string, int>> owners;
-  std::vector<std::string> out;
-  for (const MachineNumber& number : numbers()) {
-    const double value = number.get(machine);
-    if (number.leg < 0 || value == 0) continue;
-    const auto [owner, is_new] = owners.insert({value, {number.path, number.leg}});
-    if (!is_new && owner->second.second != number.leg) out.push_back(owner->second.first + " = " + number.path);
-  }
-  return out;
-}
-
 TEST(RandomMachines, varyInEveryNumber) {
   EXPECT_EQ(numbers().size(), 13u + 6 * 34);
   EXPECT_THAT(constantsOf(machines()), testing::IsEmpty());
@@ -76,20 +63,6 @@ TEST(RandomMachines, wouldBeFoundOutWithOneNumberConstant) {
   }
 }
 
-TEST(RandomMachines, haveLegsThatShareNothing) {
-  for (const ManipulatorParameters& machine : machines()) ASSERT_THAT(sharedByLegs(machine), testing::IsEmpty());
-}
-
-TEST(RandomMachines, wouldBeFoundOutWithSharedLegs) {
-  const ManipulatorParameters machine = machines().front();
-  ManipulatorParameters friction = machine, twins = machine;
-  friction.legs[4].coulomb.smoothing_speed = friction.legs[1].coulomb.smoothing_speed;
-  EXPECT_THAT(sharedByLegs(friction), testing::ElementsAre("manipulator.leg.2.coulomb.smoothing_speed = "
-                                                           "manipulator.leg.5.coulomb.smoothing_speed"));
-  twins.legs[5] = twins.legs[0];
-  EXPECT_GE(sharedByLegs(twins).size(), 28u);
-}
-
 /// Every kind of motion and of load has numbers that vary, too.
 TEST(RandomScenarios, varyInMotionAndLoad) {
   Seen seen;
@@ -105,23 +78,6 @@ TEST(RandomScenarios, varyInMotionAndLoad) {
     entry = entry->first.find("helix") == 0 && entry->second.front() == 0 ? seen.erase(entry) : std::next(entry);
   EXPECT_EQ(seen.size(), 4u * 37 - 3 + 2 * 21);
   EXPECT_THAT(constantsIn(seen, scenarios_drawn / 20), testing::IsEmpty());
-}
-
-TEST(RandomScenarios, areTheSeeds) {
-  std::set<std::string> texts;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Scenario& first = drawnScenarios()[seed - 1];
-    const Scenario again = randomScenario(seed);
-    const ManipulatorParameters &one = first.manipulator->parameters(), &other = again.manipulator->parameters();
-    for (const MachineNumber& number : numbers()) ASSERT_EQ(number.get(one), number.get(other)) << number.path;
-    const auto found = motionNumbers(*first.trajectory), same = motionNumbers(*again.trajectory);
-    ASSERT_EQ(found.size(), same.size());
-    for (std::size_t k = 0; k < found.size(); ++k) ASSERT_EQ(found[k].value, same[k].value) << found[k].name;
-    EXPECT_EQ(first.text, again.text);
-    EXPECT_EQ(first.name, "random-" + std::to_string(seed));
-    texts.insert(first.text);
-  }
-  EXPECT_EQ(texts.size(), 20u);
 }
 
 }  // namespace
