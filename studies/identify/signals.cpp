@@ -4,10 +4,11 @@
 #include <cmath>
 #include <unsupported/Eigen/FFT>
 
+#include "base/scalar.h"
+
 namespace ursula::identification {
 namespace {
 
-const double pi = std::acos(-1.0);
 /// roll_off is the Gaussian window's deviation over frequency, in cut-off frequencies. window_end is where it ends over
 /// time, in deviations.
 constexpr double roll_off = 0.2, window_end = 5.5;

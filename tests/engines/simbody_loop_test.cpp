@@ -179,7 +179,9 @@ TEST_P(Loop, hasTheRotorsOfItsMotors) {
     EXPECT_LE((with.inverseDynamics() - torques).norm(), room * torques.norm());
     with.accelerate(torques);
     EXPECT_LE(offTwistRate(with, motion), 1e3 * room);
-    if (topology == Topology::six_balls) EXPECT_LE(with.ownTwistRateError(torques).norm(), 1e3 * room);
+    if (topology == Topology::six_balls) {
+      EXPECT_LE(with.ownTwistRateError(torques).norm(), 1e3 * room);
+    }
   }
 }
 

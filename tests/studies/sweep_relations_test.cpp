@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/scalar.h"
 #include "studies/sweep_report/relations.h"
 #include "studies/sweep_report/sweep_rows.h"
 #include "tests/studies/sweep_databases.h"
@@ -16,8 +17,6 @@ namespace {
 
 using test::Dice;
 using testing::ElementsAre;
-
-const double pi = std::acos(-1.0);
 
 Relation relation(const std::vector<double>& x, const std::vector<double>& y, Classes classes = Classes::quantiles) {
   return relationOf({x, orderOf(x)}, y, ranksOf(y), classes, true);

@@ -3,12 +3,11 @@
 #include <cmath>
 #include <random>
 
+#include "base/scalar.h"
 #include "studies/identify/signals.h"
 
 namespace ursula::identification {
 namespace {
-
-const double pi = std::acos(-1.0);
 
 Eigen::VectorXd sine(Eigen::Index rows, double step, double f) {
   Eigen::VectorXd out(rows);
