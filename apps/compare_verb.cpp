@@ -71,10 +71,9 @@ void addCompare(CLI::App& app, std::function<int()>& run) {
       "interpolates if the reference is at least as fine as the test");
   verb->add_option("--columns", options->tolerances.columns, "Columns to compare, such as tau_*,p_x_m. Default: all")
       ->delimiter(',');
-  verb->add_option(
-      "--out", options->out,
-      "Folder for a page with every channel drawn, the table and JUnit. FILE.csv, or - for standard output, "
-      "gets the table alone");
+  verb->add_option("--out", options->out,
+                   "Folder for a page with every channel drawn, the table and JUnit. FILE.csv, or - for standard "
+                   "output, gets the table alone");
   verb->add_option("--junit", options->junit, "JUnit XML, a case for each channel");
   verb->callback([options, &run] { run = [options] { return compareFiles(*options); }; });
 }

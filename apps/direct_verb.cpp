@@ -222,10 +222,9 @@ int direct(const DirectOptions& options) {
   const Manipulator& machine = *scenario.manipulator;
   const bool of_paper = machine.isOfThePaper();
   if (!of_paper && !tipsAreOnSpheres(machine))
-    throw UsageError(
-        fmt::format("{} has {}, expected six URS legs driven by phi, or six UPS, RUS or PUS legs, "
-                    "each driven by d, phi or d",
-                    scenario.file.string(), inWords(machine)));
+    throw UsageError(fmt::format(
+        "{} has {}, expected six URS legs driven by phi, or six UPS, RUS or PUS legs, each driven by d, phi or d",
+        scenario.file.string(), inWords(machine)));
   const NumbersOption& option = optionFor(machine);
   const int count = !options.phi.empty() + !options.d.empty() + !options.coordinates.empty();
   const std::string& own = &option == &phi_option ? options.phi

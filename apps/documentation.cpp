@@ -168,8 +168,8 @@ std::string manPage(const ProgramWords& words) {
   }
   for (const OptionWords& option : words.program.options) options += optionEntry(option);
   return fmt::format(
-      ".TH URSULA 1 \"\" \"ursula {}\" \"User commands\"\n.SH NAME\nursula \\- {}\n.SH SYNOPSIS\n{}.SH OPTIONS\n{}"
-      ".SH VERBS\n{}.SH EXIT STATUS\n0 passed, 1 a check failed, 2 bad input or usage and nothing written, 3 "
+      ".TH URSULA 1 \"\" \"ursula {}\" \"User commands\"\n.SH NAME\nursula \\- {}\n.SH SYNOPSIS\n{}.SH OPTIONS\n{}.SH "
+      "VERBS\n{}.SH EXIT STATUS\n0 passed, 1 a check failed, 2 bad input or usage and nothing written, 3 "
       "inconclusive.\n.SH ENVIRONMENT\n{}{}.SH FILES\n.I /usr/share/ursula/scenarios\nscenarios that are installed "
       "with ursula\n",
       words.version.substr(0, words.version.find(' ')), roff(what.substr(what.find(": ") + 2)), synopses, options,

@@ -55,10 +55,9 @@ void addImport(CLI::App& app, std::function<int()>& run) {
       ->delimiter(',');
   verb->add_option("--close", choices.closed,
                    "Two links, A:B: a ball joint connects the origins of their frames; once for each loop");
-  verb->add_option(
-          "--tolerance", choices.tolerance,
-          "Axes count as square or parallel within this angle, rad, and as meeting within this share of the machine's "
-          "size")
+  verb->add_option("--tolerance", choices.tolerance,
+                   "Axes count as square or parallel within this angle, rad, and as meeting within this share of the "
+                   "machine's size")
       ->check(finiteNotNegative())
       ->capture_default_str();
   verb->add_option("--lump", choices.lump,

@@ -67,8 +67,7 @@ void printMatrix(const std::vector<DefectOutcome>& outcomes) {
   }
   fmt::print(
       "\n{} defects, {} of them change results here; {} of these can show on one formulation only; {} are caught on "
-      "too "
-      "few formulations (at least two for the others)\n\n",
+      "too few formulations (at least two for the others)\n\n",
       outcomes.size(), shown, on_one, weakDefects(outcomes));
 }
 

@@ -28,18 +28,17 @@ ScenarioKey moment() {
 }
 
 ScenarioTable load() {
-  return {
-      "load",
-      "[load]",
-      "A force and a moment on the platform: constant (`force`, `moment`), or over time by one of `file` and `table`, "
-      "quintic between the rows and constant beyond them.",
-      {force("constant"),
-       moment(),
-       {"point", KeyType::vector, "m", "[0.0, 0.0, 0.0]", "where the force acts, in M; zero is P"},
-       choiceKey("frame", "\"base\"", "in which force and moment are given", {"base", "platform"}),
-       {"file", KeyType::string, "", no_default,
-        "a CSV with `t_s`, `f_{x,y,z}_N`, `m_{x,y,z}_Nm`; a relative path is taken from the scenario's folder"},
-       tableKey("table", no_default, "rows over time, at least two", "load.table", KeyType::tables)}};
+  return {"load",
+          "[load]",
+          "A force and a moment on the platform: constant (`force`, `moment`), or over time by one of `file` and "
+          "`table`, quintic between the rows and constant beyond them.",
+          {force("constant"),
+           moment(),
+           {"point", KeyType::vector, "m", "[0.0, 0.0, 0.0]", "where the force acts, in M; zero is P"},
+           choiceKey("frame", "\"base\"", "in which force and moment are given", {"base", "platform"}),
+           {"file", KeyType::string, "", no_default,
+            "a CSV with `t_s`, `f_{x,y,z}_N`, `m_{x,y,z}_Nm`; a relative path is taken from the scenario's folder"},
+           tableKey("table", no_default, "rows over time, at least two", "load.table", KeyType::tables)}};
 }
 
 ScenarioTable loadTable() {
@@ -70,19 +69,18 @@ ScenarioTable simulation() {
 }
 
 ScenarioTable acceptance() {
-  return {
-      "acceptance",
-      "[acceptance]",
-      "Limits of your own in place of derived ones: `\"torque.pointwise\" = 1e-6`, in the check's unit, > 0, by the "
-      "names that `summary.json` lists. And:",
-      {{"torque",
-        KeyType::limits,
-        "",
-        no_default,
-        "a tolerance for efforts, as `--rtol` and `--atol`; both are added",
-        {},
-        {},
-        "acceptance.torque"}}};
+  return {"acceptance",
+          "[acceptance]",
+          "Limits of your own in place of derived ones: `\"torque.pointwise\" = 1e-6`, in the check's unit, > 0, by "
+          "the names that `summary.json` lists. And:",
+          {{"torque",
+            KeyType::limits,
+            "",
+            no_default,
+            "a tolerance for efforts, as `--rtol` and `--atol`; both are added",
+            {},
+            {},
+            "acceptance.torque"}}};
 }
 
 ScenarioTable tolerance() {

@@ -53,8 +53,8 @@ std::string histogram(const std::vector<double>& values, double largest) {
     bars += fmt::format("<rect x=\"{}\" y=\"{:.1f}\" width=\"8\" height=\"{:.1f}\"/>", 10 * k, 24 - high, high);
   }
   return fmt::format(
-      "<svg class=\"histogram\" viewBox=\"0 0 120 26\" role=\"img\" aria-label=\"Histogram of six "
-      "decades up to {}\">{}<path d=\"M0 25H120\"/></svg>",
+      "<svg class=\"histogram\" viewBox=\"0 0 120 26\" role=\"img\" aria-label=\"Histogram of six decades up to "
+      "{}\">{}<path d=\"M0 25H120\"/></svg>",
       plainNumber(largest, 2), bars);
 }
 

@@ -102,8 +102,8 @@ std::string svgMachine(const Picture& picture) {
   for (std::size_t k = 0; k < picture.legs.size(); ++k) out += leg(picture.legs[k], static_cast<int>(k % 7), sheet);
   out += polygon("platform", outline(platform), sheet, true) + polygon("path", picture.p, sheet, false);
   return fmt::format(
-      "<svg class=\"machine\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" "
-      "role=\"img\" aria-label=\"The machine at the start of its motion, with the path of P\">{}</svg>",
+      "<svg class=\"machine\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
+      "aria-label=\"The machine at the start of its motion, with the path of P\">{}</svg>",
       frame_width, frame_height, out);
 }
 

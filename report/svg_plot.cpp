@@ -174,8 +174,8 @@ std::string svgPlot(const Plot& full) {
     for (const Line& line : plot.lines)
       if (line.stroke == stroke) lines += path(plot, line, frame);
   return fmt::format(
-      "<svg class=\"static\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" "
-      "role=\"img\" aria-label=\"{}\">{}{}{}</svg>",
+      "<svg class=\"static\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
+      "aria-label=\"{}\">{}{}{}</svg>",
       width, height, escaped(full.title + ". " + inWords(full)), axes(plot, frame), lines, legend(plot));
 }
 
@@ -222,8 +222,7 @@ std::string sparkline(const std::vector<double>& trend) {
   }
   return fmt::format(
       "<svg class=\"spark\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"Replay error along the motion, "
-      "from "
-      "{} to {}\"><path d=\"{}\"/></svg>",
+      "from {} to {}\"><path d=\"{}\"/></svg>",
       line_width, line_height, escaped(quantity(low, "m")), escaped(quantity(high, "m")), d);
 }
 

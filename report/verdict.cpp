@@ -136,8 +136,8 @@ std::string sentence(const EffortDeviation& deviation) {
           ? fmt::format(" An error of {:.1g} of the largest torque would have been seen.", deviation.seen)
           : "";
   return fmt::format(
-      "{} {}: the largest deviation is {} {} of {:.6g} {}, {} at t = {:.4g} s; {}the smallest --rtol that "
-      "would pass is {}.{}",
+      "{} {}: the largest deviation is {} {} of {:.6g} {}, {} at t = {:.4g} s; {}the smallest --rtol that would pass "
+      "is {}.{}",
       deviation.relative() <= right || deviation.largest == 0 ? "Right to" : "Off by at most",
       shareText(deviation.relative()), fmt::format(deviation.largest < 1000 ? "{:.3g}" : "{:.0f}", deviation.largest),
       deviation.unit, deviation.largest_effort, deviation.unit, deviation.where, deviation.t, driftText(deviation),

@@ -91,15 +91,14 @@ Agreement direct(const Answers& answers, const Poses& poses, const Scales& scale
   const double L = poses.solver.length(), size = scales.acceleration;
   const double amplification = scales.wrench_as_acceleration / size;
   const double rounding = unknowns * eps * scales.condition * amplification;
-  Agreement out{
-      answers.name,
-      "direct",
-      0,
-      rounding,
-      0,
-      fmt::format("{:g} eps times a condition number of {:.3g}, and {:.3g} as the motors' wrench makes so much more "
-                  "acceleration than is left",
-                  unknowns, scales.condition, amplification)};
+  Agreement out{answers.name,
+                "direct",
+                0,
+                rounding,
+                0,
+                fmt::format("{:g} eps times a condition number of {:.3g}, and {:.3g} as the motors' wrench makes so "
+                            "much more acceleration than is left",
+                            unknowns, scales.condition, amplification)};
   double softness = 0;
   for (std::size_t k = 0; k < poses.motions.size(); ++k) {
     Vector6d away = answers.twist_rates[k] - commanded(poses.motions[k]);

@@ -16,9 +16,9 @@ const std::set<std::string> known_in_mujoco = wordsOf(
 const std::set<std::string> known_in_body = wordsOf("body joint freejoint inertial geom site camera light frame");
 
 const std::set<std::string> known_of_joint = wordsOf(
-    "name class type group pos axis springdamper limited solreflimit solimplimit stiffness range margin "
-    "ref springref armature damping frictionloss solreffriction solimpfriction user align "
-    "actuatorfrcrange actuatorfrclimited actuatorgravcomp");
+    "name class type group pos axis springdamper limited solreflimit solimplimit stiffness range margin ref springref "
+    "armature damping frictionloss solreffriction solimpfriction user align actuatorfrcrange actuatorfrclimited "
+    "actuatorgravcomp");
 
 const std::set<std::string> known_of_inertial =
     wordsOf("pos quat axisangle euler xyaxes zaxis mass diaginertia fullinertia");
@@ -224,10 +224,10 @@ class MjcfReader {
     joint.friction = number("frictionloss");
     joint.rotor_inertia = number("armature");
     if (joint.kind == JointKind::free && (joint.damping != 0 || joint.friction != 0 || joint.rotor_inertia != 0))
-      refuse(element,
-             fmt::format("a free joint with damping {}, frictionloss {} and armature {}, which a scenario has no "
-                         "key for",
-                         joint.damping, joint.friction, joint.rotor_inertia));
+      refuse(
+          element,
+          fmt::format("a free joint with damping {}, frictionloss {} and armature {}, which a scenario has no key for",
+                      joint.damping, joint.friction, joint.rotor_inertia));
     if (joint.kind == JointKind::ball || joint.kind == JointKind::free) return;
     const bool turns = joint.kind == JointKind::revolute;
     const auto inUnits = [&](double value) { return turns ? compiler_.angle(value) : value; };

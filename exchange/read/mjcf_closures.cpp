@@ -26,10 +26,9 @@ void sayGap(const std::string& name, const Eigen::Isometry3d& a, const Eigen::Is
   const double gap = (a.translation() - b.translation()).norm();
   const double angle = Eigen::AngleAxisd(Matrix3d(a.linear().transpose() * b.linear())).angle();
   if (angle > most_turned)
-    throw ImportError(
-        fmt::format("{} is turned by {:.3g} rad at the file's initial pose, expected the pose in which its "
-                    "bodies are one",
-                    shown(name), angle));
+    throw ImportError(fmt::format(
+        "{} is turned by {:.3g} rad at the file's initial pose, expected the pose in which its bodies are one",
+        shown(name), angle));
   if (gap > 1e-12) graph.assumptions.push_back({"This weld is open at the file's initial pose", name, gap, "m"});
   if (angle > 1e-9) graph.assumptions.push_back({"This weld is turned at the file's initial pose", name, angle, "rad"});
 }
@@ -77,10 +76,11 @@ void readEquality(const Element& element, const MjcfDefaults& defaults, const Mj
     return;
   }
   if (kind != "connect" && kind != "weld")
-    refuse(element,
-           fmt::format("couples what it names ({}), as a gear does, which a scenario has no words for, expected "
-                       "connect or weld",
-                       shown(kind)));
+    refuse(
+        element,
+        fmt::format(
+            "couples what it names ({}), as a gear does, which a scenario has no words for, expected connect or weld",
+            shown(kind)));
   listUnknownAttributes(element, kind == "weld" ? known_of_weld : known_of_connect, graph.assumptions);
   GraphJoint joint = jointAt(element, name, kind == "connect" ? JointKind::ball : JointKind::fixed);
   joint.closure = true;

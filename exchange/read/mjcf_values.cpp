@@ -151,9 +151,9 @@ void readMjcfOptions(const Element& root, ModelGraph& graph) {
     is_off = is_off || attribute(*flag, "gravity") == "disable";
     for (const char* name : {"equality", "constraint", "passive", "spring", "damper", "frictionloss", "actuation"})
       if (attribute(*flag, name) == "disable")
-        refuse(*flag, fmt::format("{}=\"disable\", which switches off what the file says elsewhere; expected a file "
-                                  "without it",
-                                  name));
+        refuse(*flag, fmt::format(
+                          "{}=\"disable\", which switches off what the file says elsewhere; expected a file without it",
+                          name));
   });
   if (!is_off) return;
   graph.assumptions.push_back({"Gravity is switched off by the file's flag; without it it would be this", "<flag>",
@@ -283,8 +283,7 @@ void boundInertia(const Element& element, const MjcfCompiler& compiler, GraphBod
   if (!(moments(0) >= -1e-12 * moments(2))) refuse(element, "a principal moment below zero, expected none");
   if (compiler.balance_inertia && moments(2) > moments(0) + moments(1)) {
     assumptions.push_back(
-        {"Moments that break the triangle inequality were set to their mean (balanceinertia), changed by "
-         "up to this",
+        {"Moments that break the triangle inequality were set to their mean (balanceinertia), changed by up to this",
          body.name, (moments.array() - moments.mean()).abs().maxCoeff(), "kg·m²"});
     moments.setConstant(moments.mean());
   }

@@ -14,11 +14,11 @@ namespace {
 using Kind = SdfFrames::Kind;
 
 const std::set<std::string> known_in_link = wordsOf(
-    "pose inertial collision visual sensor gravity kinematic light frame self_collide must_be_base_link "
-    "projector audio_sink audio_source battery particle_emitter plugin velocity_decay");
+    "pose inertial collision visual sensor gravity kinematic light frame self_collide must_be_base_link projector "
+    "audio_sink audio_source battery particle_emitter plugin velocity_decay");
 const std::set<std::string> known_in_joint = wordsOf(
-    "pose parent child axis axis2 thread_pitch screw_thread_pitch gearbox_ratio gearbox_reference_body "
-    "sensor frame plugin");
+    "pose parent child axis axis2 thread_pitch screw_thread_pitch gearbox_ratio gearbox_reference_body sensor frame "
+    "plugin");
 const std::set<std::string> known_in_axis = wordsOf("xyz initial_position use_parent_model_frame dynamics limit mimic");
 constexpr int newest_minor = 12;
 
@@ -221,10 +221,9 @@ class SdfReader {
     } else if (type == "universal" || type == "revolute2") {
       addTwoAxes(element, type, frame.scope, at, joint);
     } else {
-      refuse(element,
-             fmt::format("a {} joint, which a scenario has no words for, expected revolute, prismatic, universal, "
-                         "revolute2, ball or fixed",
-                         shown(type)));
+      refuse(element, fmt::format("a {} joint, which a scenario has no words for, expected revolute, prismatic, "
+                                  "universal, revolute2, ball or fixed",
+                                  shown(type)));
     }
   }
 
@@ -269,8 +268,7 @@ class SdfReader {
     if (minor_ >= 7 && in_model) {
       const Vector3d other = frames_.inWorld(scope).linear() * directionOf(*axis, given, "<xyz>");
       graph_.assumptions.push_back(
-          {"use_parent_model_frame has no meaning from SDF 1.7 on and was left out; the axis would "
-           "turn by this",
+          {"use_parent_model_frame has no meaning from SDF 1.7 on and was left out; the axis would turn by this",
            joint.name, std::atan2(other.cross(joint.axis[0]).norm(), other.dot(joint.axis[0])), "rad"});
     }
     takeSdfMotion(element, *axis, endless, joint, graph_.assumptions);

@@ -17,9 +17,10 @@ void takeLimits(const Element& joint_element, const Element& axis, GraphJoint& j
   if (limit == nullptr) return;
   takeRange(*limit, childText, joint);
   if (joint.lower == joint.upper)
-    refuse(joint_element, fmt::format("lower and upper limit are both {}: it cannot move; expected a joint of type "
-                                      "fixed, or limits apart",
-                                      joint.lower));
+    refuse(joint_element,
+           fmt::format(
+               "lower and upper limit are both {}: it cannot move; expected a joint of type fixed, or limits apart",
+               joint.lower));
   if (joint.lower > joint.upper) joint.lower = -(joint.upper = std::numeric_limits<double>::infinity());
 }
 
@@ -177,11 +178,11 @@ void takeSdfInertial(const Element& link, GraphBody& body, Assumptions& assumpti
   body.mass = mass.empty() ? 1 : numberOf(link, mass, "<mass>");
   if (body.mass < 0) refuse(link, fmt::format("a mass of {}, expected none below zero", body.mass));
   if ((mass.empty() || inertia == nullptr) && !body.fixed)
-    assumptions.push_back({mass.empty()
-                               ? "The file gives no mass: SDF's default of 1 kg, with 1 kg·m² where no inertia "
-                                 "is given, was taken"
-                               : "The file gives no inertia: SDF's default of 1 kg·m² was taken",
-                           body.name, 1, mass.empty() ? "kg" : "kg·m²"});
+    assumptions.push_back(
+        {mass.empty()
+             ? "The file gives no mass: SDF's default of 1 kg, with 1 kg·m² where no inertia is given, was taken"
+             : "The file gives no inertia: SDF's default of 1 kg·m² was taken",
+         body.name, 1, mass.empty() ? "kg" : "kg·m²"});
   body.center_of_mass = at.translation();
   body.inertia = at.linear() * at.linear().transpose();
   if (inertia == nullptr) return;

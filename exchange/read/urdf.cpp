@@ -167,9 +167,9 @@ class UrdfReader {
     const auto kind = kinds_of_joint.find(type);
     if (kind == kinds_of_joint.end())
       refuse(element,
-             fmt::format("a {} joint, which a scenario has no words for, expected revolute, continuous, prismatic or "
-                         "fixed",
-                         shown(type)));
+             fmt::format(
+                 "a {} joint, which a scenario has no words for, expected revolute, continuous, prismatic or fixed",
+                 shown(type)));
     joint.kind = kind->second;
     const Element* axis = onlyChild(element, "axis");
     const std::string xyz = axis == nullptr ? "" : attribute(*axis, "xyz");

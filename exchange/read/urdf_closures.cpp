@@ -127,8 +127,8 @@ class Closer {
       joint.axis[0] = at.linear() * given;
       if (!joint.axis[0].isApprox(given, 1e-9))
         graph_.assumptions.push_back(
-            {"The axis is taken in the joint's frame, as SDF 1.7 has it; in the model's, as before "
-             "1.5, it would turn by this",
+            {"The axis is taken in the joint's frame, as SDF 1.7 has it; in the model's, as before 1.5, it would turn "
+             "by this",
              joint.name, std::acos(std::clamp(joint.axis[0].dot(given), -1.0, 1.0)), "rad"});
     }
     graph_.joints.push_back(joint);
@@ -212,10 +212,9 @@ void passOver(ModelGraph& graph, const UrdfLinks& links, std::size_t first, cons
     };
     if (std::none_of(graph.joints.begin() + static_cast<std::ptrdiff_t>(first), graph.joints.end(), is_there))
       throw ImportError(
-          fmt::format(
-              "joint {} closes a loop between {} and {} in the words of a second tool, which others of the file "
-              "do not; expected every loop to be closed in the same words",
-              shown(joint.name), shown(graph.bodies[joint.parent].name), shown(graph.bodies[joint.child].name)),
+          fmt::format("joint {} closes a loop between {} and {} in the words of a second tool, which others of the "
+                      "file do not; expected every loop to be closed in the same words",
+                      shown(joint.name), shown(graph.bodies[joint.parent].name), shown(graph.bodies[joint.child].name)),
           joint.line);
     graph.assumptions.push_back(
         {"This joint closes a loop that the file closes in another tool's words as well, and is left out", joint.name,

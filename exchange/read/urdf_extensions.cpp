@@ -24,10 +24,9 @@ void refuseMassOfShapes(const Element& link, const MjcfCompiler& compiler) {
 
 /// What a <gazebo> of a link or a joint may say without a change of the dynamics.
 const std::set<std::string> known_in_gazebo = wordsOf(
-    "gravity turnGravityOff kinematic static springStiffness springReference material mu1 mu2 kp kd fdir1 "
-    "maxVel minDepth maxContacts selfCollide self_collide laserRetro sensor plugin visual collision "
-    "provideFeedback implicitSpringDamper stopCfm stopErp cfmDamping fudgeFactor joint "
-    "disableFixedJointLumping preserveFixedJoint");
+    "gravity turnGravityOff kinematic static springStiffness springReference material mu1 mu2 kp kd fdir1 maxVel "
+    "minDepth maxContacts selfCollide self_collide laserRetro sensor plugin visual collision provideFeedback "
+    "implicitSpringDamper stopCfm stopErp cfmDamping fudgeFactor joint disableFixedJointLumping preserveFixedJoint");
 
 }  // namespace
 

@@ -110,12 +110,11 @@ std::size_t findBase(const ModelGraph& graph, const Groups& groups, const Net& n
   const std::vector<std::size_t> hubs = net.hubs();
   if (hubs.empty())
     throw ImportError(
-        "no body is joined to the world or to a static body, and none has three joints: the file has no base; "
-        "--base BODY names the fixed body");
-  throw ImportError(
-      fmt::format("no moving body is joined to the world or to a static body, expected a base; name it with --base "
-                  "BODY: {}",
-                  net.names(hubs)));
+        "no body is joined to the world or to a static body, and none has three joints: the file has no base; --base "
+        "BODY names the fixed body");
+  throw ImportError(fmt::format(
+      "no moving body is joined to the world or to a static body, expected a base; name it with --base BODY: {}",
+      net.names(hubs)));
 }
 
 std::size_t findPlatform(const ModelGraph& graph, const Groups& groups, const Net& net, const ImportChoices& choices,
@@ -138,8 +137,7 @@ std::size_t findPlatform(const ModelGraph& graph, const Groups& groups, const Ne
                     graph.format == "urdf" ? "URDF is a tree" + offeredLoops(graph, groups)
                                            : "are its loops closed, and has the platform a joint of its own?"));
   throw ImportError(
-      fmt::format("more than one body has three joints or more: {}; --platform BODY names the one "
-                  "that the legs carry",
+      fmt::format("more than one body has three joints or more: {}; --platform BODY names the one that the legs carry",
                   net.names(hubs)));
 }
 
@@ -187,10 +185,10 @@ Chain walk(const ModelGraph& graph, const Groups& groups, const Net& net, const 
                                     net.name(edge.to), net.name(ends.platform), offeredLoops(graph, groups)),
                         groups.groups[edge.to].line);
     if (on.size() > 2)
-      throw ImportError(fmt::format("{} branches at body {}, which has {} joints, expected legs that join base and "
-                                    "platform only",
-                                    where, net.name(edge.to), on.size()),
-                        groups.groups[edge.to].line);
+      throw ImportError(
+          fmt::format("{} branches at body {}, which has {} joints, expected legs that join base and platform only",
+                      where, net.name(edge.to), on.size()),
+          groups.groups[edge.to].line);
     chain.primitives.back().behind = edge.to;
     from = edge.to;
     edge = on[0].joint == edge.joint ? on[1] : on[0];

@@ -195,10 +195,9 @@ class LegMaker {
 
   void requireOnPlane(double off) const {
     if (!(std::abs(off) <= task_.choices.tolerance * task_.size))
-      refuseLeg(
-          fmt::format("its ball is {:.6g} m off the plane of its links, expected within {:g} of the machine's size, "
-                      "{:.4g} m",
-                      std::abs(off), task_.choices.tolerance, task_.size));
+      refuseLeg(fmt::format(
+          "its ball is {:.6g} m off the plane of its links, expected within {:g} of the machine's size, {:.4g} m",
+          std::abs(off), task_.choices.tolerance, task_.size));
     if (std::abs(off) > worth_saying * task_.size)
       task_.assumptions.push_back(
           {"The ball is assumed to lie in the plane of the leg's links", shape_.place, std::abs(off), "m"});

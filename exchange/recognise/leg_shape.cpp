@@ -241,12 +241,11 @@ class Shaper {
       use("These hinges' axes are taken to be square", hinges, off_square, "rad", 1);
       return;
     }
-    refuseLeg(
-        fmt::format("has hinges {} and {} whose axes pass each other at {:.6g} m ({:.3g} of the machine's size) and "
-                    "have an angle of {:.6g}° between them, expected a universal joint: axes that meet at 90°, "
-                    "within {:g} (--tolerance)",
-                    shown(graph_.joints[tokens_[k].joint].name), shown(graph_.joints[tokens_[k + 1].joint].name),
-                    met.apart, met.apart / size_, met.angle * degrees_per_radian, choices_.tolerance));
+    refuseLeg(fmt::format(
+        "has hinges {} and {} whose axes pass each other at {:.6g} m ({:.3g} of the machine's size) and have an angle "
+        "of {:.6g}° between them, expected a universal joint: axes that meet at 90°, within {:g} (--tolerance)",
+        shown(graph_.joints[tokens_[k].joint].name), shown(graph_.joints[tokens_[k + 1].joint].name), met.apart,
+        met.apart / size_, met.angle * degrees_per_radian, choices_.tolerance));
   }
 
   const ModelGraph& graph_;

@@ -38,10 +38,9 @@ void takeCoordinate(const GraphJoint& from, Coordinate coordinate, std::size_t k
   leg.rotor_inertia.on(coordinate) = from.rotor_inertia;
   if (from.driven) leg.motors.push_back(from.name);
   if (from.rotor_inertia != 0 && !from.driven)
-    refuseJoint(from,
-                fmt::format(" has a rotor's inertia of {} (armature) and is not driven, which a scenario "
-                            "has no key for; without it, in the file and in your engine, the machine can be taken",
-                            from.rotor_inertia));
+    refuseJoint(from, fmt::format(" has a rotor's inertia of {} (armature) and is not driven, which a scenario has no "
+                                  "key for; without it, in the file and in your engine, the machine can be taken",
+                                  from.rotor_inertia));
   if (from.friction != 0 && from.smoothing_speed > 0)
     leg.smoothing_speed = from.smoothing_speed;
   else if (from.friction != 0)
@@ -90,8 +89,8 @@ Matrix3d snapped(const Matrix3d& inertia, bool line_may_be_zero, const Group& bo
                                  "{:.3g}, more than the file's digits leave open ({:.1g})",
                                  moments(m), excess, slack));
   assumptions.push_back(
-      {"The largest principal moment exceeded the sum of the others, by the file's digits; all three "
-       "were moved by a third of that",
+      {"The largest principal moment exceeded the sum of the others, by the file's digits; all three were moved by a "
+       "third of that",
        body.name, excess, "kg·m²"});
   m += excess / 3 * Vector3d(1, 1, -1);
   const Matrix3d out = principal.eigenvectors() * m.asDiagonal() * principal.eigenvectors().transpose();
@@ -125,11 +124,12 @@ void freeSpin(const LegTask& task, const Group& body, const Eigen::Isometry3d& f
       {std::abs(local(0, 0) - local(1, 1)), std::abs(local(0, 1)), std::abs(local(0, 2)), std::abs(local(1, 2))});
   const double share = largest > 0 ? unequal / largest : 0;
   if (!(off <= task.choices.tolerance * task.size) || !(share <= task.choices.tolerance))
-    refuseBody(body,
-               fmt::format(" spins freely about the line of its leg, of {}: its transverse moments differ by {:.3g} of "
-                           "the largest and its mass centre is {:.3g} m off the line, expected equal ones and a mass "
-                           "centre on the line",
-                           task.shape.place, share, off));
+    refuseBody(
+        body,
+        fmt::format(
+            " spins freely about the line of its leg, of {}: its transverse moments differ by {:.3g} of the largest "
+            "and its mass centre is {:.3g} m off the line, expected equal ones and a mass centre on the line",
+            task.shape.place, share, off));
   if (share > worth_saying)
     task.assumptions.push_back(
         {"This freely spinning body is assumed to be round; its moments differ by this share", body.name, share, "1"});
@@ -145,8 +145,7 @@ void freeSpin(const LegTask& task, const Group& body, const Eigen::Isometry3d& f
     if (std::abs(link.inertia(2, 2)) <= 64 * eps * largest) link.inertia(2, 2) = 0;
   }
   task.assumptions.push_back(
-      {"This rod may spin freely about its line; it does not, and then its moment about the line has no "
-       "effect",
+      {"This rod may spin freely about its line; it does not, and then its moment about the line has no effect",
        body.name, share, "1"});
 }
 
@@ -187,9 +186,9 @@ void takeLegDynamics(const LegTask& task, const std::array<Vector3d, 3>& grows_a
     takeCoordinate(joint, coordinates[k], k, leg, task.assumptions);
     if (joint.driven && !slides(coordinates[k]) && grows_along[k].dot(primitive.axis) < 0)
       task.assumptions.push_back(
-          {fmt::format("The file's coordinate of this hinge grows against the scenario's {}: its effort has the other "
-                       "sign",
-                       nameOf(coordinates[k])),
+          {fmt::format(
+               "The file's coordinate of this hinge grows against the scenario's {}: its effort has the other sign",
+               nameOf(coordinates[k])),
            joint.name, -1, "1"});
   }
 }

@@ -136,8 +136,8 @@ void proposeMotion(ImportedMachine& machine, double size) {
   const double at_start = reserveOf(machine, machine.initial, worst);
   if (!(at_start > 0))
     throw ImportError(
-        fmt::format("the leg of {} cannot take the file's initial pose (its range is exceeded by {:.3g} of "
-                    "it), expected a model whose loops are closed there",
+        fmt::format("the leg of {} cannot take the file's initial pose (its range is exceeded by {:.3g} of it), "
+                    "expected a model whose loops are closed there",
                     machine.legs[worst].joints, -at_start));
   if (const double regular = std::abs(regularity(machine, machine.initial, size)); !(regular > least_regular)) {
     machine.assumptions.push_back({"The file's initial pose is singular, or nearly so: efforts there say little",

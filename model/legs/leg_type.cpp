@@ -9,10 +9,11 @@ namespace ursula {
 DeadCentre LegType::deadCentre(const Reach& reach) const {
   const double short_of = reach.most - reach.distance, beyond = reach.distance - reach.least;
   const bool straight = short_of < beyond;
-  return {straight ? "is stretched straight" : "is folded flat",
-          fmt::format("{} {:.6g} m {}, {:.3g} m from where its knee can bend neither way, and there its speed is not "
-                      "determined",
-                      reach.before, reach.distance, measuredFrom(), straight ? short_of : beyond)};
+  return {
+      straight ? "is stretched straight" : "is folded flat",
+      fmt::format(
+          "{} {:.6g} m {}, {:.3g} m from where its knee can bend neither way, and there its speed is not determined",
+          reach.before, reach.distance, measuredFrom(), straight ? short_of : beyond)};
 }
 
 std::optional<LinkLengths> LegType::lengthsAtDeadCentre(const LegSpan& /*span*/, double /*angle*/) const {

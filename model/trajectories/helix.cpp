@@ -184,27 +184,26 @@ std::unique_ptr<Trajectory> makeHelix(const HelixParameters& parameters) {
 }
 
 std::vector<ScenarioTable> helixKeys() {
-  return {
-      {"trajectory.helix",
-       "[trajectory], kind = \"helix\"",
-       "P on a helix about the z axis of B, the platform along with its triad. The helix' angle is a quintic in time "
-       "between the values, rates and accelerations given at both ends.",
-       {kindKey(),
-        {"duration", KeyType::number, "s", required_key, "t_f", above_zero},
-        {"radius", KeyType::number, "m", required_key, "a", above_zero},
-        {"pitch", KeyType::number, "m/rad", required_key, "b: the rise for an angle of 1 rad", not_zero},
-        angle("start_angle", required_key, "β₀"),
-        inDegrees("start_angle_deg", "instead of `start_angle`"),
-        angle("end_angle", required_key, "β_f"),
-        inDegrees("end_angle_deg", "instead of `end_angle`"),
-        angle("phase", "0.0", "ω"),
-        inDegrees("phase_deg", "instead of `phase`"),
-        angle("height_phase", "0.0", "ω̄: adds its own times b to the height"),
-        inDegrees("height_phase_deg", "instead of `height_phase`"),
-        {"start_rate", KeyType::number, "rad/s", "0.0", "at t = 0"},
-        {"end_rate", KeyType::number, "rad/s", "0.0", "at t_f"},
-        {"start_acceleration", KeyType::number, "rad/s²", "0.0", "at t = 0"},
-        {"end_acceleration", KeyType::number, "rad/s²", "0.0", "at t_f"}}}};
+  return {{"trajectory.helix",
+           "[trajectory], kind = \"helix\"",
+           "P on a helix about the z axis of B, the platform along with its triad. The helix' angle is a quintic in "
+           "time between the values, rates and accelerations given at both ends.",
+           {kindKey(),
+            {"duration", KeyType::number, "s", required_key, "t_f", above_zero},
+            {"radius", KeyType::number, "m", required_key, "a", above_zero},
+            {"pitch", KeyType::number, "m/rad", required_key, "b: the rise for an angle of 1 rad", not_zero},
+            angle("start_angle", required_key, "β₀"),
+            inDegrees("start_angle_deg", "instead of `start_angle`"),
+            angle("end_angle", required_key, "β_f"),
+            inDegrees("end_angle_deg", "instead of `end_angle`"),
+            angle("phase", "0.0", "ω"),
+            inDegrees("phase_deg", "instead of `phase`"),
+            angle("height_phase", "0.0", "ω̄: adds its own times b to the height"),
+            inDegrees("height_phase_deg", "instead of `height_phase`"),
+            {"start_rate", KeyType::number, "rad/s", "0.0", "at t = 0"},
+            {"end_rate", KeyType::number, "rad/s", "0.0", "at t_f"},
+            {"start_acceleration", KeyType::number, "rad/s²", "0.0", "at t = 0"},
+            {"end_acceleration", KeyType::number, "rad/s²", "0.0", "at t_f"}}}};
 }
 
 std::shared_ptr<const Trajectory> readHelix(const TomlSection& table) {

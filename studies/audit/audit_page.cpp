@@ -117,10 +117,10 @@ std::string auditHtml(const Audit& result) {
                               countOf(result, AuditRow::Kind::fails), countOf(result, AuditRow::Kind::misprint),
                               countOf(result, AuditRow::Kind::holds));
   if (const AuditRow* torques = audit::rowOf(result, "(37)"))
-    page.remarks = {fmt::format(
-        "With the failing ones put right the method does what the paper says: its torques (37) agree with virtual work "
-        "over differenced positions to {} of {} N·m.",
-        number(torques->residual_printed), number(torques->size))};
+    page.remarks = {
+        fmt::format("With the failing ones put right the method does what the paper says: its torques (37) agree with "
+                    "virtual work over differenced positions to {} of {} N·m.",
+                    number(torques->residual_printed), number(torques->size))};
   page.sections = {
       {"failing", "Formulas that do not hold as printed",
        audit::corrected(result, AuditRow::Kind::fails, "As printed, and the correct formula")},

@@ -129,32 +129,30 @@ std::vector<Formula> positionsAndVelocities() {
 
 std::vector<Formula> bodyFormulas() {
   std::vector<Formula> all = positionsAndVelocities();
-  for (Formula& f : std::vector<Formula>{
-           {"(41c), (43c)",
-            "m/s, m/s²",
-            {"ċ = ṗ + ΩQρ, c̈ = p̈ + (Ω̇ + Ω²)Qρ", platformCenter},
-            {},
-            [](At at) { return values(at.platform.c_dot, at.platform.c_ddot); }},
-           {"(43a)",
-            "m/s²",
-            {"c̈ = ρ Q̂((Ω̇ + Ω²)Q[e] + 2ΩQ[ė] + Q[ë])", legs(proximalAcceleration)},
-            {},
-            legs([](Of leg) { return leg.ddot.c(); })},
-           distalFormula("(43b)", "d̈ = Q̂((Ω̇ + Ω̇²)Q(l[e] + σ + [s]) + 2ΩQ(l[ė] + σ[ṡ]) + 2Q(l[ë] + σ[s̈]))",
-                         {true, true, true},
-                         "Three errors; σ + [s] adds a number to a vector, read as added to every component. Each "
-                         "alone follows."),
-           distalFormula("(43b) Ω̇²", "… (Ω̇ + Ω̇²)Q …", {true, false, false}),
-           distalFormula("(43b) σ + [s]", "… (l[e] + σ + [s]) …", {false, true, false}),
-           distalFormula("(43b) twice", "… + Q(l[ë] + σ[s̈]) + Q(l[ë] + σ[s̈])", {false, false, true}),
-           {"(44)",
-            "rad/s²",
-            {"ω̇ = [0, −φ̈, 0]ᵀ = vect(Ω̇)", legs([](Of leg) { return vect(leg.Omega_i_dot()); })},
-            {},
-            legs([](Of leg) {
-              const LegPose &at = leg.at, &dot = leg.dot, &ddot = leg.ddot;
-              return V(leg.Q_hat.transpose() * vect(ddot.F() * at.F().transpose() + dot.F() * dot.F().transpose()));
-            })}})
+  for (
+      Formula& f : std::vector<Formula>{
+          {"(41c), (43c)",
+           "m/s, m/s²",
+           {"ċ = ṗ + ΩQρ, c̈ = p̈ + (Ω̇ + Ω²)Qρ", platformCenter},
+           {},
+           [](At at) { return values(at.platform.c_dot, at.platform.c_ddot); }},
+          {"(43a)", "m/s²", {"c̈ = ρ Q̂((Ω̇ + Ω²)Q[e] + 2ΩQ[ė] + Q[ë])", legs(proximalAcceleration)}, {}, legs([](Of leg) {
+             return leg.ddot.c();
+           })},
+          distalFormula(
+              "(43b)", "d̈ = Q̂((Ω̇ + Ω̇²)Q(l[e] + σ + [s]) + 2ΩQ(l[ė] + σ[ṡ]) + 2Q(l[ë] + σ[s̈]))", {true, true, true},
+              "Three errors; σ + [s] adds a number to a vector, read as added to every component. Each alone follows."),
+          distalFormula("(43b) Ω̇²", "… (Ω̇ + Ω̇²)Q …", {true, false, false}),
+          distalFormula("(43b) σ + [s]", "… (l[e] + σ + [s]) …", {false, true, false}),
+          distalFormula("(43b) twice", "… + Q(l[ë] + σ[s̈]) + Q(l[ë] + σ[s̈])", {false, false, true}),
+          {"(44)",
+           "rad/s²",
+           {"ω̇ = [0, −φ̈, 0]ᵀ = vect(Ω̇)", legs([](Of leg) { return vect(leg.Omega_i_dot()); })},
+           {},
+           legs([](Of leg) {
+             const LegPose &at = leg.at, &dot = leg.dot, &ddot = leg.ddot;
+             return V(leg.Q_hat.transpose() * vect(ddot.F() * at.F().transpose() + dot.F() * dot.F().transpose()));
+           })}})
     all.push_back(std::move(f));
   return all;
 }

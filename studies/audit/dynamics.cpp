@@ -61,8 +61,7 @@ std::vector<Formula> dynamicsFormulas() {
             legs([](Of leg) { return inBodyAxes(leg, true); })},
            legs([](Of leg) { return V(leg.m_proximal * (leg.at.G().transpose() * leg.ddot.c())); }),
            "Read as components along axes of the body; force rows of the proximal links. (38), (45) and (46) are in "
-           "axes of "
-           "ℬ, and so hold."},
+           "axes of ℬ, and so hold."},
           {"(31)",
            "N m, N",
            {"d(Mt)/dt = −WMt + w^W + w^N", bodies(withDotOverAll)},

@@ -61,8 +61,7 @@ std::vector<Formula> rateFormulas() {
            {"φ̇ = h_x/(s sin(ψ+θ) − l sin ψ)", legs([](Of leg) { return S(leg.h().x() / distanceFromAxis(leg)); })},
            legs([](Of leg) { return leg.dot.phi(); }),
            "The denominator that holds is the distance of B from the motor's axis, negated. The printed one can "
-           "vanish, see "
-           "below.",
+           "vanish, see below.",
            {FormulaError::eq15a}},
           {"(15b)",
            "rad/s",

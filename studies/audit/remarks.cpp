@@ -45,11 +45,10 @@ AuditRemark ranges(const std::vector<ReferenceState>& states) {
       }
     }
   return {"text by (14)", "0 ≤ φ, ψ ≤ π is assumed.",
-          fmt::format(
-              "At the instants of the residuals φ is between {:.3f} and {:.3f} rad, ψ between {:.3f} and {:.3f} rad. "
-              "k_z is at least {:.3g} m{}.",
-              low[0], high[0], low[1], high[1], k_z,
-              k_z > 0 ? ": without the range, (14a) as a principal value would do here" : "")};
+          fmt::format("At the instants of the residuals φ is between {:.3f} and {:.3f} rad, ψ between {:.3f} and "
+                      "{:.3f} rad. k_z is at least {:.3g} m{}.",
+                      low[0], high[0], low[1], high[1], k_z,
+                      k_z > 0 ? ": without the range, (14a) as a principal value would do here" : "")};
 }
 
 /// Finds where the printed denominator of (15a), (19a) changes its sign, so that the printed formulas divide by zero.
@@ -66,11 +65,10 @@ AuditRemark vanishingDenominator(const Scenario& scenario, const ReferenceMechan
     if (positive && negative) legs += fmt::format("{}{}", legs.empty() ? "" : ", ", i + 1);
   }
   return {"(15a), (19a), (21)", "The denominator is s sin(ψ+θ).",
-          legs.empty()
-              ? "It does not vanish on this motion."
-              : "It passes through zero on this motion, at legs " + legs +
-                    ": there φ̇ and the torques as printed have no bound, and the errors given are those of the "
-                    "instants sampled. The distance of B from the axis does not vanish."};
+          legs.empty() ? "It does not vanish on this motion."
+                       : "It passes through zero on this motion, at legs " + legs +
+                             ": there φ̇ and the torques as printed have no bound, and the errors given are those of "
+                             "the instants sampled. The distance of B from the axis does not vanish."};
 }
 
 /// Measures (27) and the first two rows of (13) with (−ψ, −θ) instead of (ψ, θ) on every leg.
@@ -87,8 +85,8 @@ AuditRemark mirroredLegs(const std::vector<ReferenceState>& states) {
     }
   return {
       "text by (27)", "(27) and the first two rows of (13) determine pose, θ and ψ: 18 equations in 18 unknowns.",
-      fmt::format("Each leg's pair (−ψ, −θ) satisfies them as well as (ψ, θ) does (residual {:.0e} m²), and misses "
-                  "the third row of (13) by up to {:.3g} m. That row decides; without it every pose counts 2⁶ times.",
+      fmt::format("Each leg's pair (−ψ, −θ) satisfies them as well as (ψ, θ) does (residual {:.0e} m²), and misses the "
+                  "third row of (13) by up to {:.3g} m. That row decides; without it every pose counts 2⁶ times.",
                   worst.convert_to<double>(), third.convert_to<double>())};
 }
 
@@ -110,17 +108,16 @@ AuditRemark inertiaPoints(const Scenario& scenario) {
 
 std::vector<AuditRemark> remarks(const Scenario& scenario, const ReferenceMechanism& mechanism,
                                  const std::vector<ReferenceState>& states) {
-  return {
-      ranges(states),
-      vanishingDenominator(scenario, mechanism),
-      mirroredLegs(states),
-      inertiaPoints(scenario),
-      {"Table I",
-       "a₃ has 0.9018 for its second entry, a₆ 0.9016; entries of a₄, a₅ and a₆ are lost or damaged in our source.",
-       "The 120° symmetry of the two families of legs gives 0.9016 and restores the rest. The points b of legs 1, 3 "
-       "and 4 lie 0.0070 m off the symmetric places; taken as meant."},
-      {"text of 4.1", "The duration t_f of the helix is not given in our source.",
-       fmt::format("Here t_f = {} s.", scenario.trajectory->duration())}};
+  return {ranges(states),
+          vanishingDenominator(scenario, mechanism),
+          mirroredLegs(states),
+          inertiaPoints(scenario),
+          {"Table I",
+           "a₃ has 0.9018 for its second entry, a₆ 0.9016; entries of a₄, a₅ and a₆ are lost or damaged in our source.",
+           "The 120° symmetry of the two families of legs gives 0.9016 and restores the rest. The points b of legs 1, "
+           "3 and 4 lie 0.0070 m off the symmetric places; taken as meant."},
+          {"text of 4.1", "The duration t_f of the helix is not given in our source.",
+           fmt::format("Here t_f = {} s.", scenario.trajectory->duration())}};
 }
 
 }  // namespace ursula::audit

@@ -45,18 +45,18 @@ void linkInertia(const Link& link, const std::string& key, std::vector<Oddity>& 
   const double most = link.mass * (c * (l - c) + l * l / 20), gyration = std::sqrt(moment / link.mass);
   const double about_joint = moment - link.mass * c * c;
   if (moment > most)
+    out.push_back({key + ".inertia", fmt::format("{:.6g} kg m2 is more than {:.6g} kg can have within a link of {:.6g} "
+                                                 "m with its mass centre at {:.6g} m: at most about {:.3g} kg m2{}",
+                                                 moment, link.mass, l, link.center_of_mass, most,
+                                                 about_joint > 0 && about_joint <= most
+                                                     ? ". Is it about the joint? Expected is that about the mass centre"
+                                                     : "")});
+  else if (gyration < 1e-3 * l)
     out.push_back(
         {key + ".inertia",
-         fmt::format("{:.6g} kg m2 is more than {:.6g} kg can have within a link of {:.6g} m with its mass centre at "
-                     "{:.6g} m: at most about {:.3g} kg m2{}",
-                     moment, link.mass, l, link.center_of_mass, most,
-                     about_joint > 0 && about_joint <= most ? ". Is it about the joint? Expected is that about the "
-                                                              "mass centre"
-                                                            : "")});
-  else if (gyration < 1e-3 * l)
-    out.push_back({key + ".inertia", fmt::format("{:.3g} kg m2 has all of {:.6g} kg within {:.3g} m, of a link of "
-                                                 "{:.6g} m. Was it given in other units?",
-                                                 moment, link.mass, gyration, l)});
+         fmt::format(
+             "{:.3g} kg m2 has all of {:.6g} kg within {:.3g} m, of a link of {:.6g} m. Was it given in other units?",
+             moment, link.mass, gyration, l)});
   const double along = link.inertia(2, 2), across = std::min(link.inertia(0, 0), link.inertia(1, 1));
   if (along > 1.001 * across)
     out.push_back({key + ".inertia", fmt::format("its third entry, {:.6g} kg m2, is about the link's own direction and "
@@ -86,9 +86,9 @@ void legs(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
     if (const double far = leg.platform_point.norm(); far > 3 * base)
       out.push_back(
           {legKey(i, "platform_point"),
-           fmt::format("is {:.6g} m from the platform's origin, while the base's points lie within {:.6g} m of "
-                       "their mean",
-                       far, base),
+           fmt::format(
+               "is {:.6g} m from the platform's origin, while the base's points lie within {:.6g} m of their mean", far,
+               base),
            far > 100 * base ? inMillimetres(far) : ""});
   }
 }
@@ -101,14 +101,14 @@ void platform(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
     out.push_back({std::string("manipulator.platform.") + key, std::move(what)});
   };
   if (gyration > 3 * size || gyration < 1e-3 * size)
-    odd("inertia",
-        fmt::format("{:.6g} kg m2 is that of {:.6g} kg at {:.3g} m from the mass centre, while the platform's "
-                    "points lie within {:.6g} m of their mean",
-                    moment, body.mass, gyration, size));
+    odd("inertia", fmt::format("{:.6g} kg m2 is that of {:.6g} kg at {:.3g} m from the mass centre, while the "
+                               "platform's points lie within {:.6g} m of their mean",
+                               moment, body.mass, gyration, size));
   if (const double far = body.center_of_mass.norm(); far > 5 * size)
-    odd("center_of_mass", fmt::format("is {:.6g} m from the platform's origin, while the platform's points lie within "
-                                      "{:.6g} m of their mean",
-                                      far, size));
+    odd("center_of_mass",
+        fmt::format(
+            "is {:.6g} m from the platform's origin, while the platform's points lie within {:.6g} m of their mean",
+            far, size));
 }
 
 /// Detects millimetres among metres. These differ by a factor of a thousand; lengths of real machines differ by less

@@ -62,9 +62,9 @@ void haste(const Scenario& scenario, std::vector<Oddity>& out) {
   const std::string key = placeInFile(scenario, "trajectory.duration").given ? "trajectory.duration" : "trajectory";
   if (most > hasty * g)
     out.push_back(
-        {key, fmt::format("{:.6g} s make the platform accelerate by {:.4g} m/s2 at t = {:.4g} s, {:.3g} times "
-                          "9.81 m/s2",
-                          scenario.trajectory->duration(), most, at, most / g)});
+        {key,
+         fmt::format("{:.6g} s make the platform accelerate by {:.4g} m/s2 at t = {:.4g} s, {:.3g} times 9.81 m/s2",
+                     scenario.trajectory->duration(), most, at, most / g)});
   if (scenario.trajectory->duration() >= 1000)
     out.push_back({key, fmt::format("{:.6g} s", scenario.trajectory->duration()),
                    fmt::format("did you mean ms? {0:.6g} ms are {1:.6g} s", scenario.trajectory->duration(),
@@ -132,10 +132,11 @@ void legsAtTheirLimits(const Scenario& scenario, std::vector<Oddity>& out) {
     const auto& [sine, stroke] = all[i];
     const LegType& type = typeOf(leg.kind);
     if (sine.value < std::sin(near))
-      out.push_back({"trajectory",
-                     fmt::format("brings the {} of leg {} to {:.3g} degrees from {} at t = {:.4g} s: "
-                                 "efforts and rounding grow there",
-                                 type.bends(), i + 1, degrees(std::asin(sine.value)), type.atDeadCentre(), sine.at)});
+      out.push_back(
+          {"trajectory",
+           fmt::format(
+               "brings the {} of leg {} to {:.3g} degrees from {} at t = {:.4g} s: efforts and rounding grow there",
+               type.bends(), i + 1, degrees(std::asin(sine.value)), type.atDeadCentre(), sine.at)});
     if (rowOf(leg.kind).isTelescopic() && stroke.value < leg.proximal.length / 50)
       out.push_back({"trajectory", fmt::format("brings the rod of leg {} to {:.3g} m from an end of its cylinder, "
                                                "which is {:.6g} m long, at t = {:.4g} s",

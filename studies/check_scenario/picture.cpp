@@ -122,8 +122,8 @@ std::string scaleBar(double scale) {
   const double most = panel / 2.5 / scale, power = std::pow(10, std::floor(std::log10(most)));
   const double length = most >= 5 * power ? 5 * power : most >= 2 * power ? 2 * power : power;
   return fmt::format(
-      "<line x1=\"{0}\" y1=\"{1}\" x2=\"{2:.1f}\" y2=\"{1}\" stroke=\"#444\"/>\n<text x=\"{0}\" "
-      "y=\"{3}\">{4:g} m</text>\n",
+      "<line x1=\"{0}\" y1=\"{1}\" x2=\"{2:.1f}\" y2=\"{1}\" stroke=\"#444\"/>\n<text x=\"{0}\" y=\"{3}\">{4:g} "
+      "m</text>\n",
       margin, title + panel + 45, margin + scale * length, title + panel + 62, length);
 }
 
@@ -141,9 +141,8 @@ std::string picture(const Scenario& scenario) {
   const double scale = (panel - 2 * margin) / std::max(box.sizes().maxCoeff(), 1e-300);
   const Vector3d middle = box.center();
   return fmt::format(
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\">\n{}<rect width=\"100%\" "
-             "height=\"100%\" fill=\"#fff\"/>\n<text x=\"{}\" y=\"26\" style=\"font-size:16px\">{}, t = 0{}"
-             "</text>\n",
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\">\n{}<rect width=\"100%\" height=\"100%\" "
+             "fill=\"#fff\"/>\n<text x=\"{}\" y=\"26\" style=\"font-size:16px\">{}, t = 0{}</text>\n",
              2 * panel, title + panel + 75, style, margin, escaped(scenario.name),
              pose.reached ? "" : ": the legs cannot take this pose") +
          View(pose, 0, 2, 0, scale, middle).drawing("from the front: x to the right, z up") +

@@ -37,8 +37,8 @@ std::string comparisonRemarks(const Comparison& c) {
                        c.reference_from, c.reference_to, c.test_from, c.test_to);
   else if (c.from != c.reference_from || c.to != c.reference_to || c.from != c.test_from || c.to != c.test_to)
     out += fmt::format(
-        "compared from {:.6g} to {:.6g} s only: the reference spans {:.6g} to {:.6g} s, the test {:.6g} to "
-        "{:.6g} s{}\n",
+        "compared from {:.6g} to {:.6g} s only: the reference spans {:.6g} to {:.6g} s, the test {:.6g} to {:.6g} "
+        "s{}\n",
         c.from, c.to, c.reference_from, c.reference_to, c.test_from, c.test_to,
         c.covers_reference ? "" : "; the reference is not covered");
   if (c.interpolated > 0) {
@@ -50,8 +50,7 @@ std::string comparisonRemarks(const Comparison& c) {
   }
   if (c.left_out > 0)
     out += fmt::format(
-        "not compared are {} instants of the test between two of the reference, which is coarser: "
-        "--interpolate\n",
+        "not compared are {} instants of the test between two of the reference, which is coarser: --interpolate\n",
         c.left_out);
   if (c.skipped > 0)
     out += fmt::format("not compared are {} instants of the reference in gaps of the test\n", c.skipped);

@@ -34,8 +34,8 @@ std::string effortsTable(const SideBySide& found) {
     for (const RecipeResult& each : engine.recipes) rows.push_back(effortRow(engine, each));
   if (rows.empty()) return "";
   const std::string caption = fmt::format(
-      "Efforts against the NOC's at {} instants, over the largest effort, {}; power of the motors, over "
-      "the largest; gap of the loops as placed; time a pose, as measured here.",
+      "Efforts against the NOC's at {} instants, over the largest effort, {}; power of the motors, over the largest; "
+      "gap of the loops as placed; time a pose, as measured here.",
       found.instants, largestText(found));
   return rendered(engines_efforts_html, {{"caption", caption}, {"rows", rows}}) + "\n";
 }
@@ -66,10 +66,10 @@ std::string inTimeTable(const SideBySide& found) {
     for (const TimeSteppingResult& each : engine.in_time) rows.push_back(timeSteppingRow(engine, each));
   if (rows.empty()) return "";
   const std::string caption = fmt::format(
-      "The first {} of the motion, moved by the engine with its own closures under the NOC's efforts. The "
-      "largest gap of the loops; sag of the platform's joints with the motors where they are; how far the "
-      "platform leaves the motion, which grows where the motion is unstable; energy gained beside all work "
-      "done; time a step, as measured here.",
+      "The first {} of the motion, moved by the engine with its own closures under the NOC's efforts. The largest gap "
+      "of the loops; sag of the platform's joints with the motors where they are; how far the platform leaves the "
+      "motion, which grows where the motion is unstable; energy gained beside all work done; time a step, as measured "
+      "here.",
       quantity(found.moved, "s"));
   return rendered(engines_in_time_html, {{"caption", caption}, {"rows", rows}}) + "\n";
 }
@@ -94,8 +94,7 @@ std::string sideBySideHtml(const SideBySide& found) {
                    {"time", "The closed loop in time", inTimeTable(found)}};
   page.footer =
       "<p>The same in numbers: <a href=\"engines.json\">engines.json</a>, <a href=\"engines.csv\">engines.csv</a>. "
-      "Times "
-      "are of one machine and one run.</p>";
+      "Times are of one machine and one run.</p>";
   return report::pageHtml(page);
 }
 

@@ -195,10 +195,9 @@ class LogFinder {
 
   [[noreturn]] void missing(const std::string& name) const {
     const auto& cells = dialect_.header_cells;
-    fail(
-        fmt::format("missing column '{}', expected it in the header; found {}; if one of them holds it, "
-                    "add --map {}=COLUMN",
-                    name, shown(fmt::format("'{}'", fmt::join(cells, "', '")), 400), name));
+    fail(fmt::format(
+        "missing column '{}', expected it in the header; found {}; if one of them holds it, add --map {}=COLUMN", name,
+        shown(fmt::format("'{}'", fmt::join(cells, "', '")), 400), name));
   }
 
   [[noreturn]] void fail(const std::string& what) const {

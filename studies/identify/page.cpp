@@ -118,10 +118,10 @@ std::string barOf(const MeasuredNumber& n) {
   if (!(unit > 0)) return "";
   const auto x = [&](double value) { return width * std::clamp(((value - n.nominal) / unit + 3) / 6, 0.0, 1.0); };
   return fmt::format(
-      "<svg class=\"static\" width=\"{0}\" height=\"{1}\" role=\"img\" aria-label=\"{6:.3g} of its {7}\">"
-      "<rect x=\"{2:.1f}\" y=\"0\" width=\"{3:.1f}\" height=\"{1}\" fill=\"currentColor\" opacity=\".12\"/>"
-      "<line x1=\"{4:.1f}\" x2=\"{5:.1f}\" y1=\"7\" y2=\"7\" stroke=\"currentColor\" stroke-width=\"2\"/>"
-      "<circle cx=\"{8:.1f}\" cy=\"7\" r=\"3\" fill=\"currentColor\"/></svg>",
+      "<svg class=\"static\" width=\"{0}\" height=\"{1}\" role=\"img\" aria-label=\"{6:.3g} of its {7}\"><rect "
+      "x=\"{2:.1f}\" y=\"0\" width=\"{3:.1f}\" height=\"{1}\" fill=\"currentColor\" opacity=\".12\"/><line "
+      "x1=\"{4:.1f}\" x2=\"{5:.1f}\" y1=\"7\" y2=\"7\" stroke=\"currentColor\" stroke-width=\"2\"/><circle "
+      "cx=\"{8:.1f}\" cy=\"7\" r=\"3\" fill=\"currentColor\"/></svg>",
       width, height, x(n.nominal - unit), x(n.nominal + unit) - x(n.nominal - unit), x(n.low), x(n.high),
       (n.value - n.nominal) / unit, n.tolerance > 0 ? "tolerance" : "tenth", x(n.value));
 }

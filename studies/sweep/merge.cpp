@@ -108,9 +108,8 @@ std::int64_t takeIn(SweepDatabase& into, const Part& part) {
   database.run(drop_retried);
   database.run(
       "INSERT INTO main.result SELECT r.* FROM part.result r WHERE NOT EXISTS (SELECT 1 FROM main.point m WHERE m.id = "
-      "r.point);"
-      "INSERT INTO main.point SELECT * FROM part.point p WHERE NOT EXISTS (SELECT 1 FROM main.point m WHERE m.id = "
-      "p.id)");
+      "r.point);INSERT INTO main.point SELECT * FROM part.point p WHERE NOT EXISTS (SELECT 1 FROM main.point m WHERE "
+      "m.id = p.id)");
   return database.changed();
 }
 

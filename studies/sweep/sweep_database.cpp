@@ -42,9 +42,9 @@ void create(Sqlite& database, const SweepIdentity& identity) {
 /// Our tables must be as create() made them, without triggers: a view instead of a table, or a trigger, may never end.
 /// Indexes, views and tables that users added for queries may stay.
 void requireOurTables(Sqlite& database) {
-  Statement each(database,
-                 "SELECT sql FROM sqlite_master WHERE type = 'trigger' OR name IN ('sweep', 'point', 'result') "
-                 "ORDER BY rowid");
+  Statement each(
+      database,
+      "SELECT sql FROM sqlite_master WHERE type = 'trigger' OR name IN ('sweep', 'point', 'result') ORDER BY rowid");
   std::string found = "\n";
   while (each.step()) found += each.text(0) + ";\n";
   if (found != tables) refuse(database.file(), "is damaged: its tables are not those of a sweep");
@@ -113,19 +113,19 @@ void requireSame(const std::filesystem::path& file, const SweepIdentity& there, 
                              "place, or --db with another file",
                              there.file));
   if (there.version != ours.version)
-    refuse(file, fmt::format("was written by ursula {}, whose results may differ from those of {}; expected --db with "
-                             "another file",
-                             there.version, ours.version));
+    refuse(file,
+           fmt::format(
+               "was written by ursula {}, whose results may differ from those of {}; expected --db with another file",
+               there.version, ours.version));
   if (there.shard != ours.shard || there.shards != ours.shards)
     refuse(file, fmt::format("holds shard {}/{}, expected {}/{}", there.shard, there.shards, ours.shard, ours.shards));
 }
 
 SweepIdentity readIdentity(Sqlite& database) {
   requireOurs(database);
-  Statement row(
-      database,
-      "SELECT text, hash, version, file, scenario, name, what, design, pointwise, points, shard, shards, keys "
-      "FROM sweep");
+  Statement row(database,
+                "SELECT text, hash, version, file, scenario, name, what, design, pointwise, points, shard, shards, "
+                "keys FROM sweep");
   if (!row.step()) refuse(database.file(), "is damaged: it does not say of which sweep it is");
   SweepIdentity out;
   std::int64_t shard = 0, shards = 0;
@@ -208,13 +208,10 @@ void SweepDatabase::requireInPlace() {
   if (!sqlite_.hasMoved()) return;
   sqlite_.run("PRAGMA wal_checkpoint(TRUNCATE)");  // its log keeps the old name, where another database may appear
   std::error_code ignored;
-  refuse(
-      sqlite_.file(),
-      fmt::format(
-          "{} while the sweep wrote to it: the points found before are in the original file if that was renamed; else "
-          "they are lost",
-          std::filesystem::exists(sqlite_.file(), ignored) ? "was replaced by another file"
-                                                           : "was removed or renamed"));
+  refuse(sqlite_.file(), fmt::format("{} while the sweep wrote to it: the points found before are in the original file "
+                                     "if that was renamed; else they are lost",
+                                     std::filesystem::exists(sqlite_.file(), ignored) ? "was replaced by another file"
+                                                                                      : "was removed or renamed"));
 }
 
 void SweepDatabase::finish() {

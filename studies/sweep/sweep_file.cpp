@@ -246,20 +246,19 @@ ScenarioTable document() {
 }
 
 ScenarioTable vary() {
-  return {
-      "vary",
-      "[[vary]]",
-      "A number, and one way in which it varies.",
-      {{"key", KeyType::string, "", required,
-        "any number of the scenario: `manipulator.platform.mass`, `leg.3.proximal.length` (legs from 1), "
-        "`leg.3.base_point.0` (entries from 0), `leg.*.base_point.*` (each by itself), a key of `leg_defaults` (all "
-        "legs that do not give it)"},
-       {"values", KeyType::vector, "", none, "an array of numbers"},
-       {"steps", KeyType::vector, "", none, "`[from, to, count]`: so many equally spaced values"},
-       {"uniform", KeyType::vector, "", none, "`[from, to]`"},
-       {"normal", KeyType::vector, "", none, "`[mean, standard deviation]`"},
-       {"relative", KeyType::number, "", none, "standard deviation as a share of the scenario's own value"},
-       {"plus_minus", KeyType::number, "", none, "uniform, at most so far from the scenario's own value"}}};
+  return {"vary",
+          "[[vary]]",
+          "A number, and one way in which it varies.",
+          {{"key", KeyType::string, "", required,
+            "any number of the scenario: `manipulator.platform.mass`, `leg.3.proximal.length` (legs from 1), "
+            "`leg.3.base_point.0` (entries from 0), `leg.*.base_point.*` (each by itself), a key of `leg_defaults` "
+            "(all legs that do not give it)"},
+           {"values", KeyType::vector, "", none, "an array of numbers"},
+           {"steps", KeyType::vector, "", none, "`[from, to, count]`: so many equally spaced values"},
+           {"uniform", KeyType::vector, "", none, "`[from, to]`"},
+           {"normal", KeyType::vector, "", none, "`[mean, standard deviation]`"},
+           {"relative", KeyType::number, "", none, "standard deviation as a share of the scenario's own value"},
+           {"plus_minus", KeyType::number, "", none, "uniform, at most so far from the scenario's own value"}}};
 }
 
 ScenarioTable slurm() {

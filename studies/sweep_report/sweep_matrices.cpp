@@ -108,8 +108,8 @@ std::string togetherWords(const SweepSummary& summary, const SweepOutput& output
   if (output.no_index != NoIndex::none)
     return fmt::format(" There are no first-order indices: {}.", reasonOf(output.no_index));
   if (output.spread.count != static_cast<std::size_t>(summary.points_done))
-    return " The indices are over the points that have a value; there the numbers may depend on each other: "
-           "their sum says nothing.";
+    return " The indices are over the points that have a value; there the numbers may depend on each other: their sum "
+           "says nothing.";
   double sum = 0;
   for (const Relation& relation : output.relations)
     if (relation.acts) sum += relation.first_order;
@@ -156,14 +156,13 @@ std::string driversTable(const SweepSummary& summary) {
 }
 
 std::string correlationTable(const SweepSummary& summary) {
-  return tiesTable(
-      summary, shownOf(summary), "Correlations",
-      "Rank correlations (Spearman), from −1 to +1: a deeper colour is stronger; blue rises, orange falls. "
-      "Pale numbers do not differ from chance: they are below the bound that one in a hundred sweeps of "
-      "unrelated numbers would exceed anywhere.",
-      [](const Relation& relation) {
-        return tie(relation.spearman, relation.correlates, signedNumber(relation.spearman));
-      });
+  return tiesTable(summary, shownOf(summary), "Correlations",
+                   "Rank correlations (Spearman), from −1 to +1: a deeper colour is stronger; blue rises, orange "
+                   "falls. Pale numbers do not differ from chance: they are below the bound that one in a hundred "
+                   "sweeps of unrelated numbers would exceed anywhere.",
+                   [](const Relation& relation) {
+                     return tie(relation.spearman, relation.correlates, signedNumber(relation.spearman));
+                   });
 }
 
 std::string indexTable(const SweepSummary& summary) {
@@ -182,11 +181,10 @@ std::string indexTable(const SweepSummary& summary) {
   };
   const bool alone = with.size() == 1 && summary.outputs[with[0]].kind == OutputKind::not_passed;
   shown.outputs = alone ? std::vector<std::size_t>() : with;
-  const std::string how =
-      summary.identity.design == "grid"
-          ? "They are the exact main effects over the complete grid."
-          : "They are estimated from the given points (Plischke, Borgonovo, Smith 2013), less the bias of finite "
-            "classes. Pale numbers do not differ from chance.";
+  const std::string how = summary.identity.design == "grid"
+                              ? "They are the exact main effects over the complete grid."
+                              : "They are estimated from the given points (Plischke, Borgonovo, Smith 2013), less the "
+                                "bias of finite classes. Pale numbers do not differ from chance.";
   return tiesTable(
       summary, shown, "First-order indices",
       "First-order Sobol’ indices: the share of an output’s variance that each number explains alone. " + how,

@@ -102,8 +102,7 @@ std::string gridMaps(const SweepSummary& summary) {
     const report::HeatScale scale(drawn.values, output.histogram.log);
     out += fmt::format(
         "<figure><svg class=\"static heat\" viewBox=\"0 30 {:.0f} {:.0f}\" role=\"img\" "
-        "aria-label=\"{}\">{}</svg></figure>"
-        "\n",
+        "aria-label=\"{}\">{}</svg></figure>\n",
         report::heat_map_width, report::heat_map_height - 30, escaped(titleOf(output) + " over the two numbers"),
         report::heatMapPanel(drawn, scale, 0, 0));
   }

@@ -109,8 +109,7 @@ TEST(BoundsRun, saysThatTheWorkingFolderIsGone) {
   const std::string scenario = ursula.write("small.toml", good_scenario).string();
   for (const auto& [call, says] :
        {std::pair{"validate " + scenario,
-                  "error: results/small: No such file or directory, as the working folder has been "
-                  "removed\n"},
+                  "error: results/small: No such file or directory, as the working folder has been removed\n"},
         {"inverse " + scenario + " --out x.csv", "error: cannot write x.csv: No such file or directory\n"}}) {
     std::filesystem::create_directory(ursula.folder() / "gone");
     const std::string line = "cd '" + (ursula.folder() / "gone").string() +

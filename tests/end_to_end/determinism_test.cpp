@@ -39,9 +39,8 @@ constexpr int times_in_all =
 
 std::string withoutTimes(const std::string& text, int& times) {
   static const std::regex time(
-      " time=\"[0-9]+\\.[0-9]{3}\" timestamp=\"[-0-9]{10}T[:0-9]{8}\"|"
-      "\"seconds\": [0-9.e-]+|[0-9.]+ s of computing in all|"
-      "data-value=\"[0-9]+\\.[0-9]{3}\">[0-9]+\\.[0-9]<");
+      " time=\"[0-9]+\\.[0-9]{3}\" timestamp=\"[-0-9]{10}T[:0-9]{8}\"|\"seconds\": [0-9.e-]+|[0-9.]+ s of computing in "
+      "all|data-value=\"[0-9]+\\.[0-9]{3}\">[0-9]+\\.[0-9]<");
   times +=
       static_cast<int>(std::distance(std::sregex_iterator(text.begin(), text.end(), time), std::sregex_iterator()));
   return std::regex_replace(text, time, "(time)");

@@ -149,9 +149,8 @@ TEST(UnreachableMotion, namesPlaceInstantLegAndMetres) {
   for (const char* verb : {"inverse", "poses", "check", "validate", "audit"}) {
     const UrsulaRun run = ursula(std::string(verb) + " far.toml");
     EXPECT_EQ(run.exit_code, 2) << verb;
-    EXPECT_THAT(run.err,
-                ContainsRegex("far.toml:44:1: error: the motion cannot be made: leg [1-6] is out of reach at t "
-                              "= [0-9.]+ s: .* m apart.* span at most 2.7 m; it misses by [0-9.e-]+ m"))
+    EXPECT_THAT(run.err, ContainsRegex("far.toml:44:1: error: the motion cannot be made: leg [1-6] is out of reach at "
+                                       "t = [0-9.]+ s: .* m apart.* span at most 2.7 m; it misses by [0-9.e-]+ m"))
         << verb;
   }
 }

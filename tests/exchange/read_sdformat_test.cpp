@@ -29,11 +29,10 @@ TEST_P(ReadSdformat, agrees) {
   const std::string text =
       "<sdf version='" + version + "'><model name='m'><pose>1 2 3 0.1 0.2 0.3</pose>" +
       "<link name='a'><pose>0.1 0 0 0.5 0 0</pose></link><link name='b'><pose" + (new_poses ? " relative_to='a'" : "") +
-      ">1 0 0 0.3 0.4 0.5</pose><inertial><pose>0.1 0.2 0.3 0.7 0.8 0.9</pose><mass>2</mass><inertia><ixx>0.3</ixx>"
-      "<iyy>0.4</iyy><izz>0.5</izz><ixy>0.01</ixy><ixz>0.02</ixz><iyz>0.03</iyz></inertia></inertial></link>"
-      "<joint name='j' type='revolute'><pose>0.1 0 0 0.2 0.3 0.4</pose><parent>a</parent><child>b</child><axis><xyz>0 "
-      "0.6 "
-      "0.8</xyz>" +
+      ">1 0 0 0.3 0.4 0.5</pose><inertial><pose>0.1 0.2 0.3 0.7 0.8 "
+      "0.9</pose><mass>2</mass><inertia><ixx>0.3</ixx><iyy>0.4</iyy><izz>0.5</izz><ixy>0.01</ixy><ixz>0.02</"
+      "ixz><iyz>0.03</iyz></inertia></inertial></link><joint name='j' type='revolute'><pose>0.1 0 0 0.2 0.3 "
+      "0.4</pose><parent>a</parent><child>b</child><axis><xyz>0 0.6 0.8</xyz>" +
       flag + "<limit><lower>-1</lower><upper>2</upper></limit></axis></joint></model></sdf>";
   const std::filesystem::path file =
       std::filesystem::path(testing::TempDir()) / ("read_sdformat_" + version + says + ".sdf");
@@ -79,14 +78,12 @@ TEST(ReadSdformatFrames, agree) {
   const std::string text =
       "<sdf version='1.9'><world name='w'><frame name='floor'><pose>0 0 1 0.2 0 0</pose></frame><model name='m' "
       "placement_frame='f' canonical_link='n::a'><pose relative_to='floor'>1 2 3 0.1 0.2 0.3</pose><frame name='f' "
-      "attached_to='n::g'><pose degrees='true'>0 1 0 10 20 30</pose></frame><model name='n'><pose>1 0 0 0.5 0 0</pose>"
-      "<link name='a'><pose>0 0 1 0 0.4 0</pose></link><frame name='g' attached_to='a'><pose>0.1 0.2 0 0 0 "
-      "1</pose></frame>"
-      "</model><link name='b'><pose relative_to='n::g' rotation_format='quat_xyzw'>0 0 2 0.6 0 0 0.8</pose></link>"
-      "<frame name='h' attached_to='b'><pose>0 0.3 0 1 0 0</pose></frame><joint name='j' type='revolute'><pose>0 0 0.1 "
-      "0 0.7 0"
-      "</pose><parent>n::g</parent><child>h</child><axis><xyz expressed_in='n'>0 0.6 "
-      "0.8</xyz></axis></joint></model></world></sdf>";
+      "attached_to='n::g'><pose degrees='true'>0 1 0 10 20 30</pose></frame><model name='n'><pose>1 0 0 0.5 0 "
+      "0</pose><link name='a'><pose>0 0 1 0 0.4 0</pose></link><frame name='g' attached_to='a'><pose>0.1 0.2 0 0 0 "
+      "1</pose></frame></model><link name='b'><pose relative_to='n::g' rotation_format='quat_xyzw'>0 0 2 0.6 0 0 "
+      "0.8</pose></link><frame name='h' attached_to='b'><pose>0 0.3 0 1 0 0</pose></frame><joint name='j' "
+      "type='revolute'><pose>0 0 0.1 0 0.7 0</pose><parent>n::g</parent><child>h</child><axis><xyz expressed_in='n'>0 "
+      "0.6 0.8</xyz></axis></joint></model></world></sdf>";
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "read_sdformat_frames.sdf";
   std::ofstream(file) << text;
   const ModelGraph graph = readModel(file);

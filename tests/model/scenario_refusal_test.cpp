@@ -53,11 +53,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "'acceptance', did you mean 'trajectory'?"},
         Refusal{"acceptance", "[trajectory]", "[acceptance]\ntorque = @{}\n[trajectory]",
                 "acceptance.torque: an empty table, expected a limit, or for torque relative or absolute"},
-        Refusal{
-            "leg", "base_axis = [0.9397", "@base_axes = [0.9397",
-            "unknown key 'base_axes' in manipulator.leg[2], expected 'kind', 'actuated', 'base_point', 'base_axis', "
-            "'platform_point', 'proximal', 'distal', 'knee', 'friction', 'coulomb', 'rotor_inertia' or 'spin', did you "
-            "mean 'base_axis'?"},
+        Refusal{"leg", "base_axis = [0.9397", "@base_axes = [0.9397",
+                "unknown key 'base_axes' in manipulator.leg[2], expected 'kind', 'actuated', 'base_point', "
+                "'base_axis', 'platform_point', 'proximal', 'distal', 'knee', 'friction', 'coulomb', 'rotor_inertia' "
+                "or 'spin', did you mean 'base_axis'?"},
         Refusal{"rotor_undriven", "friction = {", "rotor_inertia = { psi = @1 }\nfriction = {",
                 "manipulator.leg_defaults.rotor_inertia.psi: 1, but no motor drives psi, expected 'phi'"},
         Refusal{"rotor_of_one_leg", "[-0.0667, -1.3847, 0.0]", "[-0.0667, -1.3847, 0.0]\nrotor_inertia = { d = @1 }",
@@ -131,19 +130,18 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Machine, RefusedScenario,
-    testing::Values(
-        Refusal{"inherited", "length = 1.4, mass = 10.0", "length = 1.4, mass = @0",
-                "manipulator.leg_defaults.proximal.mass (of leg 1): 0, expected > 0"},
-        Refusal{"own", "[-0.0667, -1.3847, 0.0]", "[-0.0667, -1.3847, 0.0]\ndistal = { mass = @-1 }",
-                "manipulator.leg[1].distal.mass: -1, expected > 0"},
-        Refusal{"axis", "[0.9397, 0.0, 0.3420]", "@[0, 0, 0]",
-                "manipulator.leg[2].base_axis: [0, 0, 0], expected a vector that is not zero"},
-        Refusal{"triangle", "[800.0, 810.0, 820.0]", "@[800, 10, 820]",
-                "manipulator.platform.inertia: principal moments [10, 800, 820], expected the largest principal moment "
-                "<= the sum of the others, 810"},
-        Refusal{"spin", "friction = {", "spin = @\"free\"\nfriction = {",
-                "manipulator.leg_defaults.spin (of leg 1): \"free\" of a URS leg, expected \"held\": its links cannot "
-                "turn about their lines"}),
+    testing::Values(Refusal{"inherited", "length = 1.4, mass = 10.0", "length = 1.4, mass = @0",
+                            "manipulator.leg_defaults.proximal.mass (of leg 1): 0, expected > 0"},
+                    Refusal{"own", "[-0.0667, -1.3847, 0.0]", "[-0.0667, -1.3847, 0.0]\ndistal = { mass = @-1 }",
+                            "manipulator.leg[1].distal.mass: -1, expected > 0"},
+                    Refusal{"axis", "[0.9397, 0.0, 0.3420]", "@[0, 0, 0]",
+                            "manipulator.leg[2].base_axis: [0, 0, 0], expected a vector that is not zero"},
+                    Refusal{"triangle", "[800.0, 810.0, 820.0]", "@[800, 10, 820]",
+                            "manipulator.platform.inertia: principal moments [10, 800, 820], expected the largest "
+                            "principal moment <= the sum of the others, 810"},
+                    Refusal{"spin", "friction = {", "spin = @\"free\"\nfriction = {",
+                            "manipulator.leg_defaults.spin (of leg 1): \"free\" of a URS leg, expected \"held\": its "
+                            "links cannot turn about their lines"}),
     nameOf);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -180,10 +178,9 @@ TEST(RefusedScenario, hasAnotherNumberOfLegs) {
   const std::string five = good_scenario.substr(0, last) + good_scenario.substr(end),
                     none = good_scenario.substr(0, first) + good_scenario.substr(end),
                     seventh = "@[[manipulator.leg]]\nbase_point = [1, 2, 3]\n\n[trajectory]";
-  EXPECT_EQ(
-      refusalAtMark(replaced(five, "[[manipulator.leg]]", "@[[manipulator.leg]]")),
-      "manipulator.leg: 5 actuated coordinates of 5 legs in all, expected exactly 6: is a leg missing, or a motor "
-      "in its 'actuated'?");
+  EXPECT_EQ(refusalAtMark(replaced(five, "[[manipulator.leg]]", "@[[manipulator.leg]]")),
+            "manipulator.leg: 5 actuated coordinates of 5 legs in all, expected exactly 6: is a leg missing, or a "
+            "motor in its 'actuated'?");
   EXPECT_EQ(refusalAtMark(replaced(good_scenario, "[trajectory]", seventh)),
             "manipulator.leg[7]: a surplus leg, expected three to six [[manipulator.leg]]");
   EXPECT_EQ(refusalAtMark(replaced(none, "[manipulator]", "@[manipulator]")),

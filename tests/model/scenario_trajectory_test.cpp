@@ -113,8 +113,7 @@ TEST(ScenarioTrajectory, refusesMissingAndMistypedKeys) {
             "missing key 'time' in trajectory.points[1], expected a number");
   EXPECT_EQ(refusalAtMark(with(replaced(two_points, "orientation", "@orientaton"))),
             "unknown key 'orientaton' in trajectory.points[1], expected 'time', 'position', 'orientation' or "
-            "'rpy_deg', did you "
-            "mean 'orientation'?");
+            "'rpy_deg', did you mean 'orientation'?");
   EXPECT_EQ(refusalAtMark(with("[trajectory]\nkind = \"waypoints\"\npoints = [@3]\n")),
             "trajectory.points[1]: an integer, expected a table");
   EXPECT_EQ(refusalAtMark(with("[trajectory]\nkind = \"waypoints\"\npoints = @3\n")),
@@ -169,10 +168,9 @@ TEST(ScenarioLoad, refusesWhatIsNoLoad) {
   EXPECT_EQ(load("@[load]\npoint = [0, 0, 0]\n"), "load: no load, expected one of: force and moment, a file, a table");
   EXPECT_EQ(load("@[load]\nforce = [0, 0, 0]\nfile = \"a\"\n"),
             "load: more than one description of the load, expected one of: force and moment, a file, a table");
-  EXPECT_EQ(
-      load("[load]\n@forse = [0, 0, 0]\n"),
-      "unknown key 'forse' in load, expected 'force', 'moment', 'point', 'frame', 'file' or 'table', did you mean "
-      "'force'?");
+  EXPECT_EQ(load("[load]\n@forse = [0, 0, 0]\n"),
+            "unknown key 'forse' in load, expected 'force', 'moment', 'point', 'frame', 'file' or 'table', did you "
+            "mean 'force'?");
   EXPECT_EQ(load("[load]\nforce = [0, @inf, 0]\n"), "load.force[2]: inf, expected a finite number");
   EXPECT_EQ(load("[load]\nforce = [0, 0, 0]\nframe = @\"bas\"\n"),
             "load.frame: 'bas', expected 'base' or 'platform', did you mean 'base'?");

@@ -107,8 +107,7 @@ TEST(Junit, hasTimeTimestampAndProperties) {
 TEST(Junit, escapesWhatNoXmlMayHold) {
   EXPECT_EQ(report::escaped("a\xEF\xBF\xBE\xEF\xBF\xBF\x0C"
                             "b\xFF"),
-            "a\uFFFD\uFFFD\uFFFD"
-            "b\uFFFD");
+            "a\uFFFD\uFFFD\uFFFDb\uFFFD");
   EXPECT_EQ(report::escaped("ä\n\t\"'&"), "ä\n\t&quot;&#39;&amp;");
 }
 

@@ -109,9 +109,9 @@ TEST(TerminalText, isColouredOnlyWhereThatIsWanted) {
 }
 
 TEST(TerminalText, quietlyIsTheVerdictAndWhatDidNotPass) {
-  EXPECT_EQ(report::quietText(test::passedSample(), false),
-            "paper-helix: pass — 8 of 8 checks held; the closest to its limit, replay.position, is at 0.806 of its "
-            "limit.\n");
+  EXPECT_EQ(
+      report::quietText(test::passedSample(), false),
+      "paper-helix: pass — 8 of 8 checks held; the closest to its limit, replay.position, is at 0.806 of its limit.\n");
   EXPECT_THAT(report::quietText(test::externalSample(), false),
               AllOf(StartsWith("leg-3-off: fail — "),
                     HasSubstr("\n  likely cause: a factor of 1.001 on leg 3\n  torque.pointwise: leg 3, t = 2.2 s\n")));

@@ -116,8 +116,9 @@ TEST(RandomMachines, wouldBeFoundOutWithSharedLegs) {
   const ManipulatorParameters machine = drawnScenarios().front().manipulator->parameters();
   ManipulatorParameters friction = machine, twins = machine;
   friction.legs[4].coulomb.smoothing_speed = friction.legs[1].coulomb.smoothing_speed;
-  EXPECT_THAT(sharedByLegs(friction), testing::ElementsAre("manipulator.leg.2.coulomb.smoothing_speed = "
-                                                           "manipulator.leg.5.coulomb.smoothing_speed"));
+  EXPECT_THAT(
+      sharedByLegs(friction),
+      testing::ElementsAre("manipulator.leg.2.coulomb.smoothing_speed = manipulator.leg.5.coulomb.smoothing_speed"));
   twins.legs[5] = twins.legs[0];
   EXPECT_GE(sharedByLegs(twins).size(), 28u);
 }

@@ -54,8 +54,9 @@ TEST(Diagnosis, saysWhichLegsWhenAndHowMuch) {
   const Diagnosis diagnosis = onHelix().said(onHelix().rightBut([](std::size_t k, Vector6d& tau) {
     if (k >= 20 && k <= 40) tau(1) += k == 30 ? 50 : 5;
   }));
-  EXPECT_THAT(diagnosis.summary, StartsWith("leg 2 by up to 50 N m (0.199 % of the largest torque), from t = 1 to 2 s, "
-                                            "21 of 61 instants"));
+  EXPECT_THAT(
+      diagnosis.summary,
+      StartsWith("leg 2 by up to 50 N m (0.199 % of the largest torque), from t = 1 to 2 s, 21 of 61 instants"));
   EXPECT_THAT(diagnosis.deviation, HasSubstr("leg 2 by up to 50 N m (0.199 % of the largest torque) at t = 1.5 s"));
   EXPECT_THAT(diagnosis.deviation, HasSubstr("within their limits: 1, 3, 4, 5, 6; off in 21 of 61 samples, 34.4 %"));
 }

@@ -50,11 +50,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Words{"URS", "angular velocity and acceleration of the distal links relative to the proximal ones",
               CauseKind::frame, "angular_velocity", "distal"},
-        Words{
-            "RUS",
-            "angular velocity and acceleration of the distal links relative to the proximal ones, without the turning "
-            "of the joints' axes",
-            CauseKind::frame, "angular_velocity", "distal"},
+        Words{"RUS",
+              "angular velocity and acceleration of the distal links relative to the proximal ones, without the "
+              "turning of the joints' axes",
+              CauseKind::frame, "angular_velocity", "distal"},
         Words{"RUS", "angular acceleration of the distal links relative to the proximal ones, in the moments alone",
               CauseKind::frame, "angular_acceleration", "distal"},
         Words{"RUS", "the Jacobian of each leg where its inverse transposed belongs", CauseKind::jacobian, "", "legs"},

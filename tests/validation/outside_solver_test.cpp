@@ -136,8 +136,7 @@ TEST(ExternalSolver, questionsAreTheMotionToTheLastBit) {
   motion.p_ddot = {10, 11, 12};
   motion.omega_dot = {13, 14, 15};
   EXPECT_EQ(solverQuestion(motion),
-            "0.10000000000000001,0.33333333333333331,-2,3.0000000000000002e-300,0,1,0,0,"
-            "4,5,6,7,8,9,10,11,12,13,14,15");
+            "0.10000000000000001,0.33333333333333331,-2,3.0000000000000002e-300,0,1,0,0,4,5,6,7,8,9,10,11,12,13,14,15");
 }
 
 TEST(ExternalSolver, answersAreSixNumbers) {

@@ -206,11 +206,10 @@ TEST(Sentence, saysHowRightWhereAndWhatFollows) {
   deviation.drift = 0.041;
   deviation.duration = 3;
   deviation.length = 1;
-  EXPECT_EQ(
-      sentence(deviation),
-      "Off by at most 0.03 %: the largest deviation is 7.4 N m of 25066 N m, leg 3 at t = 2.97 s; from errors of this "
-      "size the open-loop motion would drift by up to 41 mm in 3 s; the smallest --rtol that would pass is "
-      "0.00029523.");
+  EXPECT_EQ(sentence(deviation),
+            "Off by at most 0.03 %: the largest deviation is 7.4 N m of 25066 N m, leg 3 at t = 2.97 s; from errors of "
+            "this size the open-loop motion would drift by up to 41 mm in 3 s; the smallest --rtol that would pass is "
+            "0.00029523.");
   deviation.drift = 2;
   EXPECT_THAT(sentence(deviation), HasSubstr("may be lost within 3 s"));
   deviation.drift = std::nan("");

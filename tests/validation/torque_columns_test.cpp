@@ -84,10 +84,9 @@ INSTANTIATE_TEST_SUITE_P(
                                "3,1.5,3.75,6.75,9.75,12.75,15.75,18.75\n",
                 ""},
         Foreign{"names", "time,tau1,tau2,tau3,tau4,tau5,tau6\n" + plain_rows, "t_s = 'time', " + tau_names},
-        Foreign{
-            "units", "Time [s],Tau 1 [Nm],Torque_2 (N m),tau[3],tau_4,TAU5,torque-6\n" + plain_rows,
-            "t_s = 'Time [s]', tau_1_Nm = 'Tau 1 [Nm]', tau_2_Nm = 'Torque_2 (N m)', tau_3_Nm = 'tau[3]', tau_4_Nm = "
-            "'tau_4', tau_5_Nm = 'TAU5', tau_6_Nm = 'torque-6'"},
+        Foreign{"units", "Time [s],Tau 1 [Nm],Torque_2 (N m),tau[3],tau_4,TAU5,torque-6\n" + plain_rows,
+                "t_s = 'Time [s]', tau_1_Nm = 'Tau 1 [Nm]', tau_2_Nm = 'Torque_2 (N m)', tau_3_Nm = 'tau[3]', tau_4_Nm "
+                "= 'tau_4', tau_5_Nm = 'TAU5', tau_6_Nm = 'torque-6'"},
         Foreign{"from_zero", "t,tau_0,tau_1,tau_2,tau_3,tau_4,tau_5\n" + plain_rows,
                 "t_s = 't', tau_1_Nm = 'tau_0', tau_2_Nm = 'tau_1', tau_3_Nm = 'tau_2', tau_4_Nm = 'tau_3', tau_5_Nm = "
                 "'tau_4', tau_6_Nm = 'tau_5'"},
@@ -141,8 +140,8 @@ TEST(TorqueColumns, refusesWhatIsNotCertainWithTheOptionThatReadsIt) {
   const std::string said = refusal<CsvError>([] { parseTorqueFile(uncertain, "a.csv"); });
   EXPECT_THAT(said, AllOf(StartsWith("a.csv:1: error: missing column 't_s', expected it in the header"),
                           HasSubstr("its columns, separated by ';', are: zeit, T1, T2, T3, T4, T5, T6"),
-                          EndsWith("add --map t_s=zeit --map tau_1_Nm=T1 --map tau_2_Nm=T2 --map tau_3_Nm=T3 "
-                                   "--map tau_4_Nm=T4 --map tau_5_Nm=T5 --map tau_6_Nm=T6")));
+                          EndsWith("add --map t_s=zeit --map tau_1_Nm=T1 --map tau_2_Nm=T2 --map tau_3_Nm=T3 --map "
+                                   "tau_4_Nm=T4 --map tau_5_Nm=T5 --map tau_6_Nm=T6")));
   // The named option does read the file.
   const ColumnMap map = parseColumnMap(
       {"t_s=zeit", "tau_1_Nm=T1", "tau_2_Nm=T2", "tau_3_Nm=T3", "tau_4_Nm=T4", "tau_5_Nm=T5", "tau_6_Nm = T6"});
@@ -171,8 +170,8 @@ TEST(TorqueColumns, aWrongMapIsRefused) {
   };
   EXPECT_EQ(said({"tau_1_Nm"}), "--map tau_1_Nm: expected NAME=COLUMN, as in tau_1_Nm=tau1");
   EXPECT_EQ(said({"tau_7_Nm=x"}),
-            "--map tau_7_Nm=x: 'tau_7_Nm' is not a column of a torque file, expected t_s or tau_1_Nm "
-            "to tau_6_Nm, did you mean 'tau_1_Nm'?");
+            "--map tau_7_Nm=x: 'tau_7_Nm' is not a column of a torque file, expected t_s or tau_1_Nm to tau_6_Nm, did "
+            "you mean 'tau_1_Nm'?");
   EXPECT_EQ(said({"t_s=a", "t_ms=b"}), "--map t_ms=b: t_ms is mapped twice");
   EXPECT_EQ(said({"t_s=a", "tau_1_Nm=a"}), "--map tau_1_Nm=a: column 'a' is mapped to t_s already");
   EXPECT_THAT(said({"t_s=t_S"}), StartsWith("a.csv:1: error: no column 't_S' (--map t_s=t_S), the header has t_s, "));
@@ -185,9 +184,8 @@ TEST(TorqueColumns, instantsOutsideOfTheMotionSayWhatTheyLookLike) {
         [&] { within(parseTorqueFile(plain_header + a + rest + b + rest + c + rest, "a.csv"), 3); });
   };
   EXPECT_THAT(said("0", "1500", "3000"),
-              EndsWith("t_s = 1500 lies outside of the motion, expected 0 to 3 s; they look "
-                       "like milliseconds: the last one is 1000 times the motion's duration. "
-                       "If they are, say so: --map t_ms=COLUMN"));
+              EndsWith("t_s = 1500 lies outside of the motion, expected 0 to 3 s; they look like milliseconds: the "
+                       "last one is 1000 times the motion's duration. If they are, say so: --map t_ms=COLUMN"));
   EXPECT_THAT(said("10", "11", "13"), EndsWith("; they look shifted by 10 s: they last as long as the motion"));
   EXPECT_THAT(said("2", "3", "4"), EndsWith("expected 0 to 3 s"));
 }

@@ -78,8 +78,7 @@ TEST(TorqueFile, asksForTheTimeAndForATransposedTable) {
 TEST(TorqueFile, refusesAMissingColumn) {
   EXPECT_EQ(refusal<CsvError>([] { parseTorqueFile("t_s,tau_1_Nm\n0,1\n", "a.csv"); })
                 .find("a.csv:1: error: missing column 'tau_2_Nm', expected it in the header; its columns, separated by "
-                      "',', are: "
-                      "t_s, tau_1_Nm"),
+                      "',', are: t_s, tau_1_Nm"),
             0U);
 }
 

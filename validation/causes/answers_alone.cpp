@@ -82,8 +82,7 @@ std::optional<Explanation> grainy(const MotorNames& motors, const ExternalTorque
   if (!all) return std::nullopt;
   return ofDigits(
       fmt::format("single precision, or few digits, within the solver: answers to nearly the same question jump by "
-                  "{:.2g} {}, {:.1g} "
-                  "of the largest, and none is off by more than {:g} times that",
+                  "{:.2g} {}, {:.1g} of the largest, and none is off by more than {:g} times that",
                   asked.grain, motors.unit(0), asked.grain / largest, grains));
 }
 

@@ -47,9 +47,9 @@ Check judgeEngine(const std::vector<EngineSample>& samples, std::size_t k, const
   const JudgedValue at = shown.shown(quantity.useful());
   Check check = judgedIfUseful(
       quantity, shown,
-      fmt::format("eps kappa(B) kappa(legs) x || |T|' |w| || x {:g} x the spread measured in turned and rescaled "
-                  "frames",
-                  rounding_safety),
+      fmt::format(
+          "eps kappa(B) kappa(legs) x || |T|' |w| || x {:g} x the spread measured in turned and rescaled frames",
+          rounding_safety),
       fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s, {}", kind.made_of, samples.size(),
                   at.t * units.time, motorName(units, at.where)),
       causeOfRounding(conditions, shown.widest_t));

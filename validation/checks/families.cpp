@@ -51,10 +51,9 @@ std::vector<Check> judgeBetweenSamples(const Evidence& e) {
                        [](const Check& each) { return each.name == "fast.inverse" && each.verdict == Verdict::fail; });
   };
   if (by_fast && inverseFails())
-    return {
-        notJudgeable(Reason::not_covered, "torque.between", std::nan(""), std::nan(""), e.units().efforts.unit, "",
-                     "the NOC is compared with the fast kernels there, which differ from it at the samples already; "
-                     "torque.pointwise and fast.inverse tell which of them is wrong")};
+    return {notJudgeable(Reason::not_covered, "torque.between", std::nan(""), std::nan(""), e.units().efforts.unit, "",
+                         "the NOC is compared with the fast kernels there, which differ from it at the samples "
+                         "already; torque.pointwise and fast.inverse tell which of them is wrong")};
   return {judgeBetween(*e.scenario, *e.subject, e.samples, profileOf(e), e.units())};
 }
 

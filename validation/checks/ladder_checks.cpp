@@ -61,10 +61,9 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
             finest.window.end());
   Check check = judgedIfUseful(
       {"integration.ladder", "m", finest.window.length}, worst,
-      fmt::format(
-          "{:.3g} of what it is at a tolerance of {:g}, which takes {} steps of {}; or what rounding may make of "
-          "it; or {:g} of what a replay's limit may be",
-          share, coarse.tolerance, coarse.steps, fine.steps, harmless),
+      fmt::format("{:.3g} of what it is at a tolerance of {:g}, which takes {} steps of {}; or what rounding may make "
+                  "of it; or {:g} of what a replay's limit may be",
+                  share, coarse.tolerance, coarse.steps, fine.steps, harmless),
       fmt::format("ends of the replay at tolerances {:g} and {:g}; observed orders {} of {}, {}", fine.tolerance,
                   finest.replay.tolerance, orders, nominal_order, ladder.asymptotic ? "asymptotic" : "not asymptotic"),
       "a coarser tolerance, or rounding, moves the end by as much");
@@ -115,8 +114,8 @@ Check judgeSecond(const Ladder& ladder, const WindowedReplay& finest, double pos
   if (out.verdict == Verdict::pass || followsTheMotion(ladder.second)) return out;
   return notApplicable(
       second_check, "m",
-      fmt::format("Simbody's integrator takes {} evaluations of the derivatives and more, for {} at a "
-                  "tenth of the accuracy: its steps follow noise of its forward dynamics",
+      fmt::format("Simbody's integrator takes {} evaluations of the derivatives and more, for {} at a tenth of the "
+                  "accuracy: its steps follow noise of its forward dynamics",
                   ladder.second.back().evaluations, ladder.second[ladder.second.size() - 2].evaluations));
 }
 

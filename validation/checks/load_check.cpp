@@ -112,13 +112,11 @@ Check judgeLoadTable(const std::vector<TimedWrench>& rows, const std::function<W
       const double s = static_cast<double>((Real50(t) - from) / (Real50(to) - from));
       compareWithin(table, i, s, t, stacked(at(t)), shown);
     }
-  return judged(
-      "motion.load", shown.value, shown.limit, "N, N m",
-      "0 at the rows and beyond; between them, 25 eps x the sum of the terms in powers of (t - t_0)/h",
-      fmt::format(
-          "the load must meet its {} rows, be constant beyond them, and between them be the quintic with harmonic-mean "
-          "slopes within both rows' range; shown for t = {:.6g} s, {}",
-          rows.size(), shown.t, componentName(shown.where)));
+  return judged("motion.load", shown.value, shown.limit, "N, N m",
+                "0 at the rows and beyond; between them, 25 eps x the sum of the terms in powers of (t - t_0)/h",
+                fmt::format("the load must meet its {} rows, be constant beyond them, and between them be the quintic "
+                            "with harmonic-mean slopes within both rows' range; shown for t = {:.6g} s, {}",
+                            rows.size(), shown.t, componentName(shown.where)));
 }
 
 Check judgeLoad(const Load& load, double duration) {

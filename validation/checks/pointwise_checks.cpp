@@ -205,8 +205,8 @@ Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::ve
   const JudgedValue shown = worst.shown(quantity.useful());
   Check check = judgedIfUseful(
       quantity, worst,
-      fmt::format("eps (kappa(B)^2 kappa(legs) x || |T|' |w| || / length + largest mass x the acceleration's) x "
-                  "{:g} x the spread measured in turned and rescaled frames",
+      fmt::format("eps (kappa(B)^2 kappa(legs) x || |T|' |w| || / length + largest mass x the acceleration's) x {:g} x "
+                  "the spread measured in turned and rescaled frames",
                   rounding_safety),
       fmt::format("forces, and moments over the machine's length, at all joints against Simbody's mobilizer and "
                   "constraint reactions, at {} instants; shown for t = {:.6g} s, leg {}; the largest is {:.6g} N",

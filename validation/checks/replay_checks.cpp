@@ -192,8 +192,8 @@ Check judgeStabilised(const StabilisedReplay& found, double largest, const Units
       "of it again from a step",
       found.rounding * units.effort(), units.efforts.unit, found.answer);
   const std::string why = fmt::format(
-      "torque that a weak stabilising term added over the whole motion, {:.3g} of the largest torque; shown for "
-      "t = {:.6g} s of {} steps, {} derivative evaluations{}",
+      "torque that a weak stabilising term added over the whole motion, {:.3g} of the largest torque; shown for t = "
+      "{:.6g} s of {} steps, {} derivative evaluations{}",
       largest > 0 ? found.torque / largest : found.torque, found.t * units.time, found.steps, found.evaluations,
       stopped);
   WorstShare worst;

@@ -118,10 +118,9 @@ void requireTellingTolerance(const Scenario& scenario) {
   const char* unit = effortsOf(*scenario.manipulator).unit;
   throw ScenarioError(inEffortWords(
       effortNoun(scenario.manipulator->motors()),
-      fmt::format(
-          "{}: error: at a tolerance of {:.6g} {} torques of zero would pass, because the largest effort of the "
-          "motion is {:.6g} {}; expected a smaller one, or --any-tolerance to accept it",
-          scenario.name, allowed, unit, largest, unit)));
+      fmt::format("{}: error: at a tolerance of {:.6g} {} torques of zero would pass, because the largest effort of "
+                  "the motion is {:.6g} {}; expected a smaller one, or --any-tolerance to accept it",
+                  scenario.name, allowed, unit, largest, unit)));
 }
 
 void judgeByTolerance(const Scenario& scenario, double between, ValidationResult& result) {

@@ -128,10 +128,10 @@ Check checkOf(const Comparison& comparison, const std::string& what, double gap,
   const JudgedValue shown = worst.shown(quantity.useful());
   Check out = judgedIfUseful(
       quantity, worst, "as for torque.pointwise, at each instant",
-      fmt::format("{}; shown for t = {:.6g} s, {}; a pulse longer than {:.2g} s and larger than {:.2g} {} would "
-                  "have been seen",
-                  what, shown.t * units.time, motorName(units, shown.where), gap * units.time,
-                  std::min(worst.widest_limit, quantity.useful()) * units.effort(), units.efforts.unit),
+      fmt::format(
+          "{}; shown for t = {:.6g} s, {}; a pulse longer than {:.2g} s and larger than {:.2g} {} would have been seen",
+          what, shown.t * units.time, motorName(units, shown.where), gap * units.time,
+          std::min(worst.widest_limit, quantity.useful()) * units.effort(), units.efforts.unit),
       causeOfRounding(samples, worst.widest_t));
   out.largest = {worst.largest, worst.largest_t * units.time, motorName(units, worst.largest_where)};
   return out;

@@ -259,13 +259,13 @@ std::string causeOfRounding(const Conditioning& at, Rounded quantity) {
     return fmt::format("the forces that close the loops are {:.2g} times the platform's weight", at.weight_ratio);
   if (largest == platform)
     return fmt::format(
-        "at its joints the platform gives way {:.2g} times as easily as the heaviest body's mass: its mass "
-        "or moments of inertia are small beside the links",
+        "at its joints the platform gives way {:.2g} times as easily as the heaviest body's mass: its mass or moments "
+        "of inertia are small beside the links",
         platform);
   if (largest == link)
     return fmt::format(
-        "at its joint a distal link gives way {:.2g} times as easily as the heaviest body's mass: its mass "
-        "or moments of inertia are small",
+        "at its joint a distal link gives way {:.2g} times as easily as the heaviest body's mass: its mass or moments "
+        "of inertia are small",
         link);
   if (largest == at.kappa_B) return fmt::format("a singular pose is near, kappa(B) = {:.2g}", at.kappa_B);
   return fmt::format("leg {} is nearly stretched or folded, |sin theta| = {:.2g}, kappa(legs) = {:.2g}",

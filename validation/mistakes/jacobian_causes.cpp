@@ -151,15 +151,15 @@ Vector6d withPointsNotTurned(const Scenario& scenario, bool accelerations, bool 
 void addPointsNotTurned(TriedCauses& out) {
   for (const bool accelerations : {false, true})
     for (const bool jacobian : {true, false})
-      out.add({std::string("the platform's points not turned into the base's frame in the velocities of the legs' "
-                           "tips") +
-                   (accelerations ? ", in their accelerations" : "") + (jacobian ? ", and in the Jacobian" : ""),
-               jacobian ? wrong_jacobian : NamedCause{CauseKind::frame, "orientation", "all"}},
-              [&scenario = out.scenario, accelerations, jacobian] {
-                return [&scenario, accelerations, jacobian](const Motion<double>& motion) {
-                  return withPointsNotTurned(scenario, accelerations, jacobian, motion);
-                };
-              });
+      out.add(
+          {std::string("the platform's points not turned into the base's frame in the velocities of the legs' tips") +
+               (accelerations ? ", in their accelerations" : "") + (jacobian ? ", and in the Jacobian" : ""),
+           jacobian ? wrong_jacobian : NamedCause{CauseKind::frame, "orientation", "all"}},
+          [&scenario = out.scenario, accelerations, jacobian] {
+            return [&scenario, accelerations, jacobian](const Motion<double>& motion) {
+              return withPointsNotTurned(scenario, accelerations, jacobian, motion);
+            };
+          });
 }
 
 }  // namespace

@@ -151,8 +151,7 @@ std::string likelyInstants(const TorqueFile& file, double duration) {
   for (const auto& [power, name, unit] : {std::tuple{1e3, "milliseconds", "t_ms"}, {1e6, "microseconds", "t_us"}})
     if (near(last, power * duration))
       return fmt::format(
-          "; they look like {}: the last one is {:g} times the motion's duration. If they are, say so: "
-          "--map {}=COLUMN",
+          "; they look like {}: the last one is {:g} times the motion's duration. If they are, say so: --map {}=COLUMN",
           name, power, unit);
   if (file.rows() >= 3 && (first == 0 || first == 1) && last - first == rows - 1) return "; they look like row numbers";
   if (first != 0 && near(last - first, duration))

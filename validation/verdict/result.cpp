@@ -101,10 +101,11 @@ Check judgedIfUseful(const CheckedQuantity& quantity, const WorstShare& worst, s
           : fmt::format("no limit can be derived: {}", cause);
   Check out;
   if (shown.undecided)
-    out = notJudgeable(Reason::limit_useless, quantity.name, shown.value, shown.limit, quantity.unit, std::move(basis),
-                       fmt::format("{}; more than {:g} of the quantity's size and within the derived limit, it is "
-                                   "neither right nor wrong; {}",
-                                   why, useful_share, wide));
+    out = notJudgeable(
+        Reason::limit_useless, quantity.name, shown.value, shown.limit, quantity.unit, std::move(basis),
+        fmt::format(
+            "{}; more than {:g} of the quantity's size and within the derived limit, it is neither right nor wrong; {}",
+            why, useful_share, wide));
   else
     out = judged(quantity.name, shown.value, shown.limit, quantity.unit, std::move(basis),
                  shown.beyond || worst.widest_limit <= useful ? why : fmt::format("{}; note: {}", why, wide));

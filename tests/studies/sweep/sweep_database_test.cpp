@@ -159,10 +159,9 @@ TEST(SweepDatabase, refusesTablesThatAreNoneOfOursBeforeTheyAreRead) {
     return refused(file);
   };
   // The view never ends, so a reader would wait for ever.
-  EXPECT_THAT(
-      changed("DROP TABLE point; CREATE VIEW point AS WITH RECURSIVE n(id) AS (SELECT 0 UNION ALL SELECT 0 FROM "
-              "n) SELECT id, '{}' AS parameters, 'pass' AS verdict, 0.1 AS seconds, NULL AS error FROM n"),
-      HasSubstr("its tables are not those of a sweep"));
+  EXPECT_THAT(changed("DROP TABLE point; CREATE VIEW point AS WITH RECURSIVE n(id) AS (SELECT 0 UNION ALL SELECT 0 "
+                      "FROM n) SELECT id, '{}' AS parameters, 'pass' AS verdict, 0.1 AS seconds, NULL AS error FROM n"),
+              HasSubstr("its tables are not those of a sweep"));
   EXPECT_THAT(changed("CREATE TRIGGER t AFTER INSERT ON point BEGIN DELETE FROM result; END"),
               HasSubstr("its tables are not those of a sweep"));
   EXPECT_THAT(changed("ALTER TABLE point ADD COLUMN more TEXT"), HasSubstr("its tables are not those of a sweep"));
@@ -249,8 +248,8 @@ TEST(SweepDatabase, isOfTheSweepThatWroteFirst) {
   std::future<std::string> says = std::async(std::launch::async, [&] { return refused(file); });
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   other.run(tables +
-            "INSERT INTO sweep SELECT * FROM made.sweep; PRAGMA application_id = 1970434933; "
-            "PRAGMA user_version = 1; COMMIT");
+            "INSERT INTO sweep SELECT * FROM made.sweep; PRAGMA application_id = 1970434933; PRAGMA user_version = 1; "
+            "COMMIT");
   EXPECT_THAT(says.get(), HasSubstr("of another sweep, s.toml"));
   Sqlite written(file, Sqlite::Access::read);
   EXPECT_EQ(readIdentity(written).hash, "bb");
