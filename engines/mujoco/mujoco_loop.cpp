@@ -159,7 +159,7 @@ Vector6d MujocoLoop::inverseDynamics(const Motion<double>& motion) {
 
 // How a user with the joints' motion calls MuJoCo: the fewest calls that suffice.
 
-/// With a universal joint at the base, MuJoCo's zero is another angle about −u.
+/// Returns φ at MuJoCo's zero, rad. It differs from 0 if the leg has a universal joint at the base.
 double mujoco::offsetOfPhi(const Leg& leg) {
   if (rowOf(leg.kind).joints_of_proximal != 2) return 0;
   const Vector3d u = leg.base_axis.normalized(), level = u.cross(Vector3d::UnitZ());

@@ -99,6 +99,24 @@ TEST(TerminalText, saysNothingOfMotorsThatAreRight) {
   EXPECT_THAT(report::validationText(test::passedSample(), false), Not(HasSubstr("torques against")));
 }
 
+TEST(TerminalText, callsOnlyAClaimedCauseLikely) {
+  ValidationResult result = test::failedSample();
+  const auto texts = [&result](const char* cause, CauseClaim claim) {
+    result.cause_words = {"leg 3", cause, claim};
+    return report::validationText(result, false) + report::quietText(result, false) + report::sentence(result);
+  };
+  const std::string likely = texts("a factor on leg 3", CauseClaim::likely);
+  EXPECT_THAT(likely, HasSubstr("\nlikely cause: a factor on leg 3\n"));
+  EXPECT_THAT(likely, HasSubstr("are wrong. Likely cause: a factor on leg 3."));
+  for (const CauseClaim claim : {CauseClaim::none, CauseClaim::interval}) {
+    const std::string unclaimed = texts("no simple explanation", claim);
+    EXPECT_THAT(unclaimed, HasSubstr("\nno simple explanation\n"));
+    EXPECT_THAT(unclaimed, HasSubstr("are wrong: no simple explanation."));
+    EXPECT_THAT(unclaimed, Not(HasSubstr("ikely cause")));
+  }
+  EXPECT_THAT(texts("a likely part: a factor", CauseClaim::part), HasSubstr("are wrong. A likely part: a factor."));
+}
+
 TEST(TerminalText, isColouredOnlyWhereThatIsWanted) {
   EXPECT_THAT(report::validationText(test::failedSample(), true), HasSubstr("\033[1;31mfail\033[0m"));
   EXPECT_TRUE(report::wantsColour(true, nullptr, "xterm"));

@@ -9,8 +9,8 @@
 namespace ursula {
 namespace {
 
-/// Of each motor: its effort with open loops, and the change per kilogram of its leg's soft closure. That change is a
-/// small difference of forces of size `rounded` per kilogram, and has their rounding.
+/// The efforts with open loops, and each effort's change per kilogram of its leg's soft closure. The change is a small
+/// difference of forces of size `rounded` per kilogram, and has their rounding.
 struct SoftLoops {
   Vector6d open, per_kilogram, rounded;
 };

@@ -53,7 +53,7 @@ void addSmoothing(TriedCauses& out) {
     const std::vector<Leg>& legs = out.machine.parameters().legs;
     return std::any_of(legs.begin(), legs.end(), one);
   };
-  // Of angles or of d alone, it is one number, which TriedCauses::addTied fits.
+  // A machine with friction on angles alone, or on d alone, has one speed, which TriedCauses::addTied fits.
   if (has([](const Leg& leg) { return leg.coulomb.d != 0; }) &&
       has([](const Leg& leg) { return leg.coulomb.phi != 0 || leg.coulomb.psi != 0 || leg.coulomb.theta != 0; }))
     out.addFitted(

@@ -41,7 +41,7 @@ Vector6d carried(const BodyTerms& body, const BodyTerms& carrier, const Vector3d
   return moved.efforts() - body.efforts();
 }
 
-/// From the base's joint to a rod's outer end, m.
+/// The distance from the base's joint to the rod's outer end, m.
 double lengthOf(const OpenLeg& leg) {
   const Link& rod = leg.numbers.distal;
   return leg.distal.line.dot(leg.distal.from) + rod.length - rod.center_of_mass;
