@@ -14,6 +14,17 @@
 namespace ursula::report {
 namespace {
 
+/// Round numbers within [low, high], about `count` of them.
+std::vector<double> roundTicks(double low, double high, int count) {
+  std::vector<double> out;
+  if (!(high > low)) return out;
+  const double rough = (high - low) / count, power = std::pow(10.0, std::floor(std::log10(rough)));
+  const double lead = rough / power;
+  const double step = power * (lead > 5 ? 10 : lead > 2 ? 5 : lead > 1 ? 2 : 1);
+  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) out.push_back(k * step);
+  return out;
+}
+
 constexpr double panel = 230, left = 70, top = 62;  // px
 constexpr double overlap = 0.3;                     // px: prevents hairlines between cells
 constexpr int colours = 24;

@@ -1,6 +1,7 @@
 #include "report/page.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 
 #include "report/html_template.h"
@@ -63,7 +64,8 @@ namespace {
 constexpr std::size_t most_points = 500;
 
 const char* name(Stroke stroke) {
-  return stroke == Stroke::limit ? "limit" : stroke == Stroke::ghost ? "ghost" : "line";
+  constexpr const char* names[] = {"line", "ghost", "limit", "points"};
+  return names[static_cast<std::size_t>(stroke)];
 }
 
 std::string lineJson(const Line& line) {
@@ -72,7 +74,9 @@ std::string lineJson(const Line& line) {
 }
 
 std::string plotJson(const Plot& full) {
-  const Plot plot = thinned(full, most_points);
+  const bool scattered =
+      std::any_of(full.lines.begin(), full.lines.end(), [](const Line& line) { return line.stroke == Stroke::points; });
+  const Plot plot = scattered ? full : thinned(full, most_points);
   return fmt::format(
       R"({{"title":{},"xLabel":{},"yLabel":{},"logX":{},"logY":{},"overTime":{},"tube":{},"rows":{},"description":{},"x":{},"lines":{}}})",
       jsonText(plot.title), jsonText(plot.x_label), jsonText(plot.y_label), plot.log_x, plot.log_y, plot.over_time,

@@ -143,6 +143,7 @@ bool isDrawable(const Plot& plot, const Line& line) {
 }
 
 std::string inWords(const Plot& plot) {
+  if (!plot.words.empty()) return plot.words;
   const Line* largest = nullptr;
   std::size_t row = 0;
   for (const Line& line : plot.lines) {

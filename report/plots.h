@@ -12,7 +12,7 @@
 namespace ursula::report {
 
 /// Styles of a line. A ghost is broad and pale under a line of the same colour; a limit is dashed and has its own
-/// colour. Points have no line, and the static drawing shows all of them.
+/// colour. Points have no line, and all of them are drawn.
 enum class Stroke { line, ghost, limit, points };
 
 /// One line of a chart. `color` counts from 0.
@@ -25,7 +25,7 @@ struct Line {
 };
 
 /// Groups of charts that answer one question.
-enum class PlotGroup { sources, errors, efforts, motion, reactions, numerics };
+enum class PlotGroup { sources, errors, efforts, motion, reactions, numerics, relations };
 
 struct Plot {
   std::string title;
@@ -34,6 +34,7 @@ struct Plot {
   bool log_x = false, log_y = false;
   bool over_time = false;  ///< plots over time share their cursor
   bool tube = false;       ///< the first two lines are its upper and lower bound
+  std::string words;       ///< its caption; if empty, the largest magnitude and where
   std::size_t rows = 0;    ///< rows of the data; after thinning `x` has fewer
   std::vector<double> x;   ///< ascending and finite
   std::vector<Line> lines;
@@ -48,7 +49,7 @@ Plot thinned(const Plot& plot, std::size_t buckets);
 /// Whether `line` has a drawable point: finite, and positive on a logarithmic axis.
 bool isDrawable(const Plot& plot, const Line& line);
 
-/// Describes a chart in a sentence for its caption: the largest magnitude, and where.
+/// Describes a chart in a sentence for its caption: its own words, or the largest magnitude and where.
 std::string inWords(const Plot& plot);
 
 /// A column named `quantity_1_unit`: its index "1", "2", … and its unit, as in columns.
@@ -58,17 +59,8 @@ struct Indexed {
 };
 std::vector<Indexed> indexed(const TimeSeries& series, const std::string& quantity);
 
-/// Returns a chart as a static drawing, for readers without scripts, for paper and for download. The page's style
-/// defines its colour classes. Empty if nothing can be drawn.
-std::string svgPlot(const Plot& plot);
-
-/// Round numbers within [low, high], about `count` of them.
-std::vector<double> roundTicks(double low, double high, int count);
-
-/// Returns a chart with its caption and its static drawing, or with an empty place for the script's drawing. `index` is
-/// the chart's index in the page's data.
-enum class Drawing { with, without };
-std::string figureHtml(const Plot& plot, std::size_t index, const char* heading, Drawing drawing = Drawing::with);
+/// Returns a chart's caption and a place for the script's drawing. `index` is the chart's index in the page's data.
+std::string figureHtml(const Plot& plot, std::size_t index, const char* heading);
 
 /// Returns the figures of one group side by side; "" if there is none.
 std::string figuresHtml(const std::vector<Plot>& plots, PlotGroup group);

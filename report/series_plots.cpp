@@ -196,15 +196,14 @@ void addSeriesPlots(const TimeSeries& series, const Motors& motors, double allow
   addReactions(time);
 }
 
-std::string figureHtml(const Plot& plot, std::size_t index, const char* heading, Drawing drawing) {
+std::string figureHtml(const Plot& plot, std::size_t index, const char* heading) {
   const bool drawable =
       std::any_of(plot.lines.begin(), plot.lines.end(), [&plot](const Line& line) { return isDrawable(plot, line); });
   return rendered(chart_html, {{"heading", heading},
                                {"title", plot.title},
                                {"words", inWords(plot)},
                                {"drawable", drawable},
-                               {"index", index},
-                               {"drawing", drawable && drawing == Drawing::with ? svgPlot(plot) : ""}}) +
+                               {"index", index}}) +
          "\n";
 }
 

@@ -1,4 +1,4 @@
-// Draws the charts of a page without a machine. Without this script the page shows their static drawings.
+// Draws the charts of a page without a machine.
 import { Clock } from "./clock.js";
 import { drawCharts } from "./plots.js";
 

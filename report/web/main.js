@@ -1,5 +1,5 @@
-// The report is complete without this script. It makes charts live, lets the machine move, and gives both the same
-// time.
+// Draws the charts, lets the machine move, and gives both the same time. Without this script the page has its tables,
+// its machine, and the largest value of each chart in words.
 import { Clock } from "./clock.js";
 import { drawCharts } from "./plots.js";
 import { addPlayer } from "./player.js";

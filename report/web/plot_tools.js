@@ -16,19 +16,6 @@ function csv(plot) {
   return [head.map(cell).join(","), ...rows, ""].join("\n");
 }
 
-// The page's colours are written into the file, because it has no style sheet.
-function svg(drawing) {
-  const copy = drawing.cloneNode(true);
-  const from = [drawing, ...drawing.querySelectorAll("*")];
-  [copy, ...copy.querySelectorAll("*")].forEach((node, k) => {
-    const style = getComputedStyle(from[k]);
-    for (const name of ["fill", "stroke", "stroke-width", "stroke-dasharray", "font-size", "font-family", "opacity"])
-      node.style.setProperty(name, style.getPropertyValue(name));
-  });
-  copy.style.removeProperty("display");
-  return new XMLSerializer().serializeToString(copy);
-}
-
 function png(chart, background) {
   const canvas = document.createElement("canvas");
   const from = chart.ctx.canvas;
@@ -50,19 +37,18 @@ function button(text, title, action) {
 }
 
 /** Buttons below a chart: one shows the whole range again, the others save it as a file. */
-export function addTools(host, chart, plot, drawing, scenario) {
+export function addTools(host, chart, plot, scenario) {
   const bar = document.createElement("div");
   bar.className = "tools";
   const whole = () => chart.setScale("x", { min: plot.x[0], max: plot.x.at(-1) });
-  const text = (type, ending, content) => () => save(fileName(scenario, plot, ending), new Blob([content()], { type }));
+  const saveCsv = () => save(fileName(scenario, plot, ".csv"), new Blob([csv(plot)], { type: "text/csv" }));
   bar.append(
     button("Whole range", "Drag over the chart to zoom; this, or a double click, goes back", whole),
     button("PNG", "Save this chart as it is now, as PNG", async () =>
       save(fileName(scenario, plot, ".png"), await png(chart, getComputedStyle(document.body).backgroundColor)),
     ),
-    button("CSV", "Save the drawn points as CSV", text("text/csv", ".csv", () => csv(plot))),
+    button("CSV", "Save the drawn points as CSV", saveCsv),
   );
-  if (drawing) bar.append(button("SVG", "Save the whole chart as SVG", text("image/svg+xml", ".svg", () => svg(drawing))));
   if (plot.rows > plot.x.length) {
     const note = document.createElement("span");
     note.textContent = `Least and largest of ${plot.rows} instants; all are in timeseries.csv.`;

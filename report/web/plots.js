@@ -7,8 +7,10 @@ import { isDecade, linearTicks, logTicks, shortNumber } from "./ticks.js";
 
 // Zero has no place on a logarithmic axis and becomes a gap. So do values below 1e-32, at which uPlot throws.
 const least_on_log = 1e-30;
+const screen_height = 250;
 
 function seriesOptions(line, plot, few) {
+  const scattered = line.stroke === "points";
   const said = !line.unit || plot.yLabel.endsWith(`(${line.unit})`); // the axis already has the unit
   return {
     label: said ? line.label : `${line.label} (${line.unit})`,
@@ -16,7 +18,8 @@ function seriesOptions(line, plot, few) {
     width: widthOf(line),
     dash: dashOf(line),
     spanGaps: few,
-    points: { show: few || undefined, size: 7, stroke: () => colorOf(line), fill: () => colorOf(line) },
+    ...(scattered && { paths: () => null }),
+    points: { show: few || scattered || undefined, size: scattered ? 4 : 7, stroke: () => colorOf(line), fill: () => colorOf(line) },
     value: (_, value) => shortNumber(value),
   };
 }
@@ -97,7 +100,7 @@ function options(plot, width, events, together) {
   const [x0, x1] = [plot.x[0], plot.x.at(-1)];
   return {
     width,
-    height: 250,
+    height: screen_height,
     scales: {
       x: { time: false, distr: plot.logX ? 3 : 1, ...(plot.overTime && together.range) },
       y: { distr: plot.logY ? 3 : 1 },
@@ -179,44 +182,55 @@ function nearest(x, t) {
   return t - x[low] <= x[high] - t ? low : high;
 }
 
+const paper = { width: 480, height: 260 }; // px; the style sheet fits it into its column
+
 function drawChart(host, plot, data, clock, together, legends) {
-  const still = host.querySelector("svg.static");
   const lines = [plot.x, ...plot.lines.map((line) => drawable(line.values, plot.logY))];
   const chart = new uPlot(options(plot, host.clientWidth, data.events, together), lines, host);
-  host.classList.add("drawn");
   chart.ctx.canvas.setAttribute("role", "img");
   chart.ctx.canvas.setAttribute("aria-label", plot.description);
   drawLegend(chart, plot);
   if (plot.overTime) together.charts.add(chart);
-  addTools(host, chart, plot, still, data.scenario);
+  addTools(host, chart, plot, data.scenario);
   if (plot.overTime) follow(host, chart, plot, clock, legends);
-  return () => {
+  return (size = { width: host.clientWidth, height: screen_height }) => {
     drawLegend(chart, plot);
-    if (host.clientWidth !== chart.width) chart.setSize({ width: host.clientWidth, height: chart.height });
+    if (size.width !== chart.width || size.height !== chart.height) chart.setSize(size);
     chart.redraw(false);
   };
 }
 
-/** Draws each chart when it comes near the screen, and again when its width or the theme changes. */
+/**
+ * Draws each chart when it comes near the screen, and again when its width or the theme changes. Before the page is
+ * printed, all are drawn, in the colours of paper.
+ */
 export function drawCharts(document, data, clock) {
   const together = new Together();
   const legends = new Legends();
-  const redraws = [];
+  const redraws = new Map();
+  const draw = (host) => {
+    watcher.unobserve(host);
+    if (!redraws.has(host)) redraws.set(host, drawChart(host, data.plots[host.dataset.plot], data, clock, together, legends));
+  };
   const watcher = new IntersectionObserver(
-    (entries) => {
-      for (const { isIntersecting, target } of entries) {
-        if (!isIntersecting) continue;
-        watcher.unobserve(target);
-        redraws.push(drawChart(target, data.plots[target.dataset.plot], data, clock, together, legends));
-      }
-    },
+    (entries) => entries.forEach(({ isIntersecting, target }) => isIntersecting && draw(target)),
     { rootMargin: "200px" },
   );
-  for (const host of document.querySelectorAll("[data-plot]")) watcher.observe(host);
-  const redrawAll = () => {
-    redraws.forEach((redraw) => redraw());
+  const hosts = document.querySelectorAll("[data-plot]");
+  for (const host of hosts) watcher.observe(host);
+  const redrawAll = (size) => {
+    for (const redraw of redraws.values()) redraw(size);
     clock.set(clock.t); // moves the marks to the present time
   };
-  window.addEventListener("resize", redrawAll);
-  watchTheme(redrawAll);
+  const turn = (printed) => {
+    document.documentElement.classList.toggle("paper", printed);
+    redrawAll(printed ? paper : undefined);
+  };
+  window.addEventListener("resize", () => redrawAll());
+  window.addEventListener("beforeprint", () => {
+    for (const host of hosts) if (host.clientWidth > 0) draw(host); // not in folded parts
+    turn(true);
+  });
+  window.addEventListener("afterprint", () => turn(false));
+  watchTheme(() => redrawAll());
 }

@@ -29,10 +29,8 @@ using report::quantity;
 using report::rendered;
 using report::Stroke;
 
-// These limits keep a page of a hundred channels below 3 MB. They bound the points in all; only the worst channels have
-// static drawings.
+// These limits keep a page of a hundred channels below 3 MB. They bound the points in all.
 constexpr std::size_t buckets_in_all = 9000, fewest_buckets = 60, most_buckets = 400;
-constexpr std::size_t drawn_without_script = 24;
 constexpr std::size_t open_at_first = 3;
 
 /// The unit that a column's name ends in: "tau_3_Nm" → "Nm".
@@ -105,15 +103,14 @@ HtmlValue channelRow(const ChannelComparison& c, std::size_t index) {
 
 HtmlValue channelGroup(const ChannelComparison& channel, const ChannelCharts& charts, std::size_t index,
                        std::size_t place) {
-  const report::Drawing drawing = place < drawn_without_script ? report::Drawing::with : report::Drawing::without;
   return {{"verdict", name(channel.verdict)},
           {"index", index},
           {"open", place < open_at_first || channel.verdict == Verdict::fail},
           {"badge", report::verdictBadge(channel.verdict)},
           {"channel", channel.name},
           {"share", shareText(channel)},
-          {"charts", report::figureHtml(charts.curves, 2 * place, "h3", drawing) +
-                         report::figureHtml(charts.difference, 2 * place + 1, "h3", drawing)}};
+          {"charts", report::figureHtml(charts.curves, 2 * place, "h3") +
+                         report::figureHtml(charts.difference, 2 * place + 1, "h3")}};
 }
 
 std::string missing(const Comparison& comparison) {

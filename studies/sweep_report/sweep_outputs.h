@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "report/plots.h"
 #include "studies/sweep/sqlite.h"
 #include "studies/sweep_report/sweep_rows.h"
 #include "studies/sweep_report/sweep_summary.h"
@@ -80,13 +81,14 @@ std::string showCommand(const SweepSummary& summary, std::int64_t id);
 /// Returns verdicts, outputs and their drivers in Markdown.
 std::string markdownOf(const SweepSummary& summary);
 
-/// report.html: one file that needs neither network nor script.
+/// report.html: one file that needs no network. Its tables and maps need no script.
 std::string sweepPage(const SweepSummary& summary);
+
+std::vector<report::Plot> scatterPlots(const SweepSummary& summary);
 
 // Parts of the page in HTML; empty if there is nothing to draw.
 
 std::string histograms(const SweepSummary& summary);
-std::string scatterPlots(const SweepSummary& summary);
 std::string gridMaps(const SweepSummary& summary);
 
 // Parts of the page in HTML; empty if there is nothing to show.

@@ -11,7 +11,6 @@ namespace {
 constexpr const char* style = R"(
 .small{grid-template-columns:repeat(auto-fill,minmax(min(14rem,100%),1fr))}
 .maps{grid-template-columns:repeat(auto-fit,minmax(min(24rem,100%),32rem))}
-.static .points{stroke:var(--c0);stroke-width:3;stroke-linecap:round;stroke-opacity:.45}
 .bins rect{fill:var(--bar)}
 .heat .title{fill:var(--text);font-size:13px}
 .heat .frame{fill:none;stroke:var(--quiet)}
@@ -88,9 +87,11 @@ std::string sweepPage(const SweepSummary& summary) {
   page.remarks = sweepRemarks(summary);
   page.figures = figuresOf(summary);
   page.style = style;
+  page.charts = scatterPlots(summary);
+  if (!page.charts.empty()) page.script = report::charts_script;
   page.sections = {{"maps", "Over the grid", gridMaps(summary)},
                    {"drivers", "Drivers", driversTable(summary)},
-                   {"scatter", "Strongest relations", scatterPlots(summary)},
+                   {"scatter", "Strongest relations", report::figuresHtml(page.charts, report::PlotGroup::relations)},
                    {"correlations", "Every number against every output", correlationTable(summary)},
                    {"indices", "First-order indices", indexTable(summary)},
                    {"worst", "Worst points", worstTable(summary)},

@@ -42,6 +42,16 @@ std::string histogramSvg(const SweepOutput& output) {
       height - 5);
 }
 
+std::string wordsOf(const Scatter& scatter, const Relation& relation) {
+  std::string words = fmt::format("Rank correlation {}", signedNumber(relation.spearman));
+  if (!std::isnan(relation.first_order))
+    words += fmt::format(", first-order index {}", shareNumber(relation.first_order));
+  if (scatter.x.size() < relation.count)
+    words += fmt::format("; {} of {} points", grouped(static_cast<std::int64_t>(scatter.x.size())),
+                         grouped(static_cast<std::int64_t>(relation.count)));
+  return words;
+}
+
 report::Plot plotOf(const SweepSummary& summary, const Scatter& scatter) {
   const SweepOutput& output = summary.outputs[scatter.output];
   const std::string unit = report::prettyUnit(output.unit);
@@ -54,6 +64,7 @@ report::Plot plotOf(const SweepSummary& summary, const Scatter& scatter) {
   plot.rows = rows.size();
   plot.x = report::picked(scatter.x, rows);
   plot.lines = {{"", unit, 0, report::Stroke::points, report::picked(scatter.y, rows)}};
+  plot.words = wordsOf(scatter, output.relations[scatter.parameter]);
   return plot;
 }
 
@@ -72,22 +83,12 @@ std::string histograms(const SweepSummary& summary) {
   return out.empty() ? "" : "<div class=\"charts small\">\n" + out + "</div>\n";
 }
 
-std::string scatterPlots(const SweepSummary& summary) {
-  std::string out;
-  for (const Scatter& scatter : summary.scatters) {
-    const Relation& relation = summary.outputs[scatter.output].relations[scatter.parameter];
-    const std::string svg = report::svgPlot(plotOf(summary, scatter));
-    std::string words = fmt::format("Rank correlation {}", signedNumber(relation.spearman));
-    if (!std::isnan(relation.first_order))
-      words += fmt::format(", first-order index {}", shareNumber(relation.first_order));
-    if (scatter.x.size() < relation.count)
-      words += fmt::format("; {} of {} points", grouped(static_cast<std::int64_t>(scatter.x.size())),
-                           grouped(static_cast<std::int64_t>(relation.count)));
-    if (!svg.empty())
-      out += figure(titleOf(summary.outputs[scatter.output]) + " over " + summary.parameters[scatter.parameter].key,
-                    words, svg);
-  }
-  return out.empty() ? "" : "<div class=\"charts\">\n" + out + "</div>\n";
+std::vector<report::Plot> scatterPlots(const SweepSummary& summary) {
+  std::vector<report::Plot> out;
+  for (const Scatter& scatter : summary.scatters)
+    if (report::Plot plot = plotOf(summary, scatter); report::isDrawable(plot, plot.lines[0]))
+      out.push_back(std::move(plot));
+  return out;
 }
 
 std::string gridMaps(const SweepSummary& summary) {
