@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "report/html_template.h"
 #include "report/page.h"
+#include "report/page_data.h"
 #include "report/picture.h"
 #include "report/plots.h"
 #include "report/quantity.h"

@@ -1,4 +1,4 @@
-#include "report/sections.h"
+#include "report/page_data.h"
 
 #include <fmt/format.h>
 
@@ -6,60 +6,62 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/picture.h"
-#include "report/plots.h"
+#include "report/sections.h"
 #include "report/singular.h"
-#include "report/text.h"
 
 namespace ursula::report {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 /// Writes x, y, z of all instants in order; a constant point is written once.
 template <class Vectors>
-std::string track(const Vectors& points) {
+Json track(const Vectors& points) {
   const bool still = std::all_of(points.begin(), points.end(), [&](const auto& point) { return point == points[0]; });
-  std::string out = "[";
+  Json out = Json::array();
   for (const auto& point : points) {
-    for (Eigen::Index k = 0; k < point.size(); ++k) {
-      if (out.size() > 1) out += ',';
-      addNumber(point(k), out);
-    }
+    for (Eigen::Index k = 0; k < point.size(); ++k) out.push_back(screenNumber(point(k)));
     if (still) break;
   }
-  return out += ']';
+  return out;
 }
 
 /// Stores points that links and joints share only once.
 class TrackTable {
  public:
   std::size_t add(const Picture::Track& points) {
-    const std::string json = track(points);
-    const auto at = std::find(tracks_.begin(), tracks_.end(), json);
-    if (at != tracks_.end()) return static_cast<std::size_t>(at - tracks_.begin());
-    tracks_.push_back(json);
-    return tracks_.size() - 1;
+    Json numbers = track(points);
+    const auto at = std::find(tracks_.begin(), tracks_.end(), numbers);
+    const auto index = static_cast<std::size_t>(at - tracks_.begin());
+    if (at == tracks_.end()) tracks_.push_back(std::move(numbers));
+    return index;
   }
-  std::string json() const {
-    return jsonList(tracks_, [](const std::string& each, std::string& out) { out += each; });
-  }
+  const Json& json() const { return tracks_; }
 
  private:
-  std::vector<std::string> tracks_;
+  Json tracks_ = Json::array();
 };
 
-std::string legJson(const Picture::Leg& leg, TrackTable& table) {
-  const auto add_link = [&table](const Picture::Link& link, std::string& out) {
-    out += fmt::format(R"({{"from":{},"to":{}}})", table.add(link.from), table.add(link.to));
-  };
-  const auto add_axis = [&table](const Picture::Track& axis, std::string& out) {
-    out += std::to_string(table.add(axis));
-  };
-  const auto add_joint = [&](const Picture::Joint& joint, std::string& out) {
-    out += fmt::format(R"({{"name":{},"at":{},"driven":{},"slides":{},"axes":{}}})", jsonText(joint.name),
-                       table.add(joint.at), joint.driven, joint.slides, jsonList(joint.axes, add_axis));
-  };
-  return fmt::format(R"({{"kind":{},"links":{},"joints":{},"rails":{}}})", jsonText(leg.kind),
-                     jsonList(leg.links, add_link), jsonList(leg.joints, add_joint), jsonList(leg.rails, add_link));
+Json linksJson(const std::vector<Picture::Link>& links, TrackTable& table) {
+  Json out = Json::array();
+  for (const Picture::Link& link : links) {
+    const std::size_t from = table.add(link.from);
+    out.push_back({{"from", from}, {"to", table.add(link.to)}});
+  }
+  return out;
+}
+
+Json legJson(const Picture::Leg& leg, TrackTable& table) {
+  Json out = {{"kind", leg.kind}, {"links", linksJson(leg.links, table)}, {"joints", Json::array()}};
+  for (const Picture::Joint& joint : leg.joints) {
+    Json axes = Json::array();
+    const std::size_t at = table.add(joint.at);
+    for (const Picture::Track& axis : joint.axes) axes.push_back(table.add(axis));
+    out["joints"].push_back(
+        {{"name", joint.name}, {"at", at}, {"driven", joint.driven}, {"slides", joint.slides}, {"axes", axes}});
+  }
+  out["rails"] = linksJson(leg.rails, table);
+  return out;
 }
 
 /// Columns of the time series at the picture's instants.
@@ -107,7 +109,7 @@ std::vector<Eigen::VectorXd> poseErrors(const AtInstants& at) {
 }
 
 /// Forces on the platform and at the base, leg after leg.
-std::string forces(const AtInstants& at, const char* name, std::size_t legs) {
+Json forces(const AtInstants& at, const char* name, std::size_t legs) {
   std::vector<std::string> columns;
   for (std::size_t leg = 1; leg <= legs; ++leg)
     for (const char axis : {'x', 'y', 'z'}) columns.push_back(fmt::format("reaction_{}_{}_{}_N", name, axis, leg));
@@ -115,38 +117,44 @@ std::string forces(const AtInstants& at, const char* name, std::size_t legs) {
 }
 
 /// The platform motion with the least resistance, the leg that moves B least, and the lost direction; null if unknown.
-std::string weakJson(const Picture& picture) {
+Json weakJson(const Picture& picture) {
   const std::optional<std::vector<WeakDirections>> weak = weakDirections(picture);
-  if (!weak) return "null";
+  if (!weak) return nullptr;
   std::vector<Eigen::VectorXd> yielding, lost;
-  std::vector<double> legs;
+  Json legs = Json::array();
   for (const WeakDirections& each : *weak) {
     yielding.emplace_back(each.yielding);
     lost.emplace_back(each.lost);
-    legs.push_back(static_cast<double>(each.leg));
+    legs.push_back(each.leg);
   }
-  return fmt::format(R"({{"yielding":{},"lost":{},"leg":{}}})", track(yielding), track(lost), jsonNumbers(legs));
+  return {{"yielding", track(yielding)}, {"lost", track(lost)}, {"leg", legs}};
 }
 
 }  // namespace
 
-std::string machineJson(const Picture& picture, const ValidationResult& result) {
-  const TimeSeries& series = result.timeseries;
-  std::vector<double> wrong;  // legs, 0-based
+nlohmann::ordered_json machineJson(const Picture& picture, const ValidationResult& result) {
+  Json wrong = Json::array();  // legs, 0-based
   for (const MotorDeviation& motor : motorsOff(result))
     if (!motor.right) wrong.push_back(motorsOf(result)[static_cast<std::size_t>(motor.motor)].leg);
-  const AtInstants at(series, picture.t);
+  const AtInstants at(result.timeseries, picture.t);
   std::vector<std::string> efforts;
-  for (const Indexed& effort : indexed(series, "tau"))
+  for (const Indexed& effort : indexed(result.timeseries, "tau"))
     efforts.push_back(fmt::format("tau_{}_{}", effort.index, effort.unit));
   TrackTable table;
-  const auto add_leg = [&table](const Picture::Leg& leg, std::string& out) { out += legJson(leg, table); };
-  const std::string legs = jsonList(picture.legs, add_leg);
-  return fmt::format(
-      R"({{"t":{},"tracks":{},"legs":{},"p":{},"q":{},"hold":{},"error":{},"efforts":{},"onPlatform":{},"onBase":{},"weak":{},"wrong":{}}})",
-      jsonNumbers(picture.t), table.json(), legs, track(picture.p), track(picture.q), track(picture.platform_points),
-      track(poseErrors(at)), track(at.vectors(efforts)), forces(at, "fB", picture.legs.size()),
-      forces(at, "fA", picture.legs.size()), weakJson(picture), jsonNumbers(wrong));
+  Json legs = Json::array();
+  for (const Picture::Leg& leg : picture.legs) legs.push_back(legJson(leg, table));
+  return {{"t", screenNumbers(picture.t)},
+          {"tracks", table.json()},
+          {"legs", legs},
+          {"p", track(picture.p)},
+          {"q", track(picture.q)},
+          {"hold", track(picture.platform_points)},
+          {"error", track(poseErrors(at))},
+          {"efforts", track(at.vectors(efforts))},
+          {"onPlatform", forces(at, "fB", picture.legs.size())},
+          {"onBase", forces(at, "fA", picture.legs.size())},
+          {"weak", weakJson(picture)},
+          {"wrong", wrong}};
 }
 
 }  // namespace ursula::report

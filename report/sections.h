@@ -26,17 +26,6 @@ std::string inputCard(const Picture& picture);
 /// Returns the machine and its motion in one line: "six U–R–S legs under a platform of 500 kg · helix of 3 s".
 std::string machineLine(const Picture& picture);
 
-/// Returns as JSON the machine's points and directions at the picture's instants, with the errors, efforts and
-/// reactions of `series` there.
-std::string machineJson(const Picture& picture, const ValidationResult& result);
-
-/// Returns the data of the page's script as JSON for a <script> block: charts, the machine along its motion, events. It
-/// is thinned to visible detail; numbers have six digits. `picture` may be null.
-std::string pageData(const ValidationResult& result, const Picture* picture, const std::vector<Plot>& plots);
-
-/// The same for a page with charts only.
-std::string chartData(const std::string& title, const std::vector<Plot>& plots);
-
 /// Returns a table of the errors over time: maximum with its instant, root mean square, last value, and a histogram of
 /// their decades. Empty if there are no errors.
 std::string statisticsTable(const ValidationResult& result);

@@ -119,23 +119,4 @@ std::string painted(const std::string& text, Paint paint, bool coloured) {
   return std::string("\033[") + codes[static_cast<int>(paint)] + "m" + text + "\033[0m";
 }
 
-void addNumber(double value, std::string& out) {
-  if (std::isfinite(value))
-    fmt::format_to(std::back_inserter(out), "{:.6g}", value);
-  else
-    out += "null";
-}
-
-std::string jsonNumbers(const std::vector<double>& values) { return jsonList(values, addNumber); }
-
-/// Escapes text that could end a script, and characters that HTML does not have.
-std::string jsonText(const std::string& words) {
-  std::string out = nlohmann::json(words).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  for (const auto& [odd, escape] :
-       {std::pair<std::string, const char*>{"<", "\\u003c"}, {"\xEF\xBF\xBE", "\\ufffe"}, {"\xEF\xBF\xBF", "\\uffff"}})
-    for (std::size_t at = out.find(odd); at != std::string::npos; at = out.find(odd, at))
-      out.replace(at, odd.size(), escape);
-  return out;
-}
-
 }  // namespace ursula::report

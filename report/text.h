@@ -2,7 +2,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace ursula::report {
@@ -35,24 +34,5 @@ std::string wrapped(const std::string& head, std::size_t margin, const std::stri
 /// Adds terminal escapes for the paint if `coloured`.
 enum class Paint { good, bad, open, quiet, strong };
 std::string painted(const std::string& text, Paint paint, bool coloured);
-
-/// Appends `value` with six digits, more than a screen shows; null if it is not finite.
-void addNumber(double value, std::string& out);
-
-/// Returns "[…]" with the text that `add(item, out)` appends for each item.
-template <class Items, class Add>
-std::string jsonList(const Items& items, const Add& add) {
-  std::string out = "[";
-  for (const auto& item : items) {
-    if (out.size() > 1) out += ',';
-    add(item, out);
-  }
-  return out += ']';
-}
-
-std::string jsonNumbers(const std::vector<double>& values);
-
-/// Returns a quoted string without "<", so neither "</script" nor "<!--" can end or break the surrounding block.
-std::string jsonText(const std::string& words);
 
 }  // namespace ursula::report
