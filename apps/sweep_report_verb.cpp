@@ -15,7 +15,7 @@ struct ReportOptions {
   std::string database, out, csv;
 };
 
-int report(const ReportOptions& options) {
+int writeReport(const ReportOptions& options) {
   if (options.out == "-" && options.csv == "-")
     throw UsageError("--out - and --csv -: expected standard output for one of them");
   Sqlite database(options.database, Sqlite::Access::read);
@@ -51,7 +51,7 @@ void addSweepReport(CLI::App& sweep, std::function<int()>& run) {
       "--csv", options->csv,
       "Writes all points as CSV instead, one row each: a file, or - for standard output; with --out, both");
   verb->footer("Exit code: 0, whatever the verdicts of the points are.");
-  verb->callback([options, &run] { run = [options] { return report(*options); }; });
+  verb->callback([options, &run] { run = [options] { return writeReport(*options); }; });
 }
 
 }  // namespace ursula

@@ -182,7 +182,7 @@ function nearest(x, t) {
   return t - x[low] <= x[high] - t ? low : high;
 }
 
-const paper = { width: 480, height: 260 }; // px; the style sheet fits it into its column
+const paper = { width: 400, height: 240 }; // px; the style sheet fits it into its column
 
 function drawChart(host, plot, data, clock, together, legends) {
   const lines = [plot.x, ...plot.lines.map((line) => drawable(line.values, plot.logY))];
