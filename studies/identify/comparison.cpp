@@ -164,7 +164,7 @@ Comparison ModelledLog::directions() const {
 }
 
 /// Adds the change of E = S − D at a higher cut-off. The signal falls off beyond the cut-off, so the next octave shows
-/// about what is lost, beside noise, which is known.
+/// about what is lost. It also shows noise, which is known and subtracted.
 void ModelledLog::addNumerical(Comparison& out) const {
   constexpr double chance = 1.5;  // noise may be more by chance
   Eigen::MatrixXd change = Eigen::MatrixXd::Zero(filtered_.size(), motor_count);
@@ -189,7 +189,7 @@ void ModelledLog::addNumerical(Comparison& out) const {
 }
 
 /// Returns the rows at which the slopes stay about the same within the low pass, or hardly matter. Near a singular pose
-/// they do not, and the covariance of the noise is unknown.
+/// they change, and the covariance of the noise is unknown.
 std::vector<Eigen::Index> ModelledLog::steadyRows(const std::vector<Eigen::MatrixXd>& slopes) const {
   constexpr double most_change = 0.3;
   const Eigen::Matrix3d passed = filtered_.motionLines().covariance(0);

@@ -35,8 +35,8 @@ using MotorTables = std::array<Eigen::MatrixXd, motor_count>;
 /// Measured and modelled efforts after both low passes, and the directions that change the model.
 struct Comparison {
   Eigen::VectorXd t;  ///< instants of the motion, s
-  Eigen::MatrixXd measured,
-      model;                   ///< N·m or N, both with all noise of the motion; all else is without its likely part
+  /// Efforts, N·m or N. Both keep all noise of the motion; its likely part was taken out of the other members.
+  Eigen::MatrixXd measured, model;
   Eigen::MatrixXd model_rate;  ///< N·m/s or N/s
   std::vector<Segment> segments;
   std::vector<Direction> directions;      ///< linear ones first, then six offsets, the delay, six errors of the low
@@ -61,8 +61,8 @@ class ModelledLog {
 
   const FilteredLog& filtered() const { return filtered_; }
   const Eigen::MatrixXd& efforts() const { return efforts_; }
-  /// Returns the delay of measured efforts behind the motion's, s, with the best correlation; 0 if that is as good. Its
-  /// resolution is a step of the filter; |delay| <= `most`.
+  /// Returns the delay of the measured efforts behind the motion that has the best correlation, s. Returns 0 if the
+  /// efforts correlate about as well without a delay. Its resolution is a step of the filter; |delay| <= `most`.
   double coarseDelay(double most) const;
 
   /// Makes all directions. This is slow.
@@ -95,10 +95,11 @@ class ModelledLog {
   Eigen::MatrixXd efforts_, driven_rates_;
 };
 
-/// Returns the machine with a positive rotor inertia on every driven coordinate, however small.
+/// Returns the machine with a positive rotor inertia on every driven coordinate, however small. A rotor of zero has no
+/// column in the regressor.
 ManipulatorParameters withRotors(ManipulatorParameters machine);
 
-/// Returns 0 for the inertia of a rotor that the scenario lacks.
+/// Returns the number as the scenario has it: 0 for a rotor that withRotors() added.
 inline double stated(double nominal) { return std::abs(nominal) < 1e-300 ? 0 : nominal; }
 
 }  // namespace ursula::identification

@@ -9,8 +9,8 @@
 
 namespace ursula::identification {
 
-/// Covariance of efforts by noise of the samples of efforts and motion, after the low passes. Instants are correlated
-/// within blocks, and blocks are independent of each other.
+/// The covariance of efforts by noise of the samples of efforts and motion, after the low passes. Instants are
+/// correlated within blocks, and blocks are independent of each other.
 class EffortNoise {
  public:
   EffortNoise() = default;
@@ -39,8 +39,9 @@ class EffortNoise {
   Eigen::MatrixXd variances_;
 };
 
-/// Returns the motion's likeliest noise, given the efforts' noise of all kinds times its inverse covariance: an instant
-/// of the motion in each row; value, rate and acceleration of all channels. Its size is at most about its deviation.
+/// Returns the likeliest noise of the motion. `weighed` is the efforts' noise of all kinds times its inverse
+/// covariance. Each row has an instant's value, rate and acceleration of all channels. The noise is hardly larger than
+/// its deviation.
 Eigen::MatrixXd likelyNoiseOfMotion(const FilteredLog& filtered, const Comparison& comparison,
                                     const Eigen::VectorXd& weighed);
 
@@ -60,8 +61,8 @@ struct SquareRoot {
   Eigen::VectorXd z;
   double rest = 0;
   Eigen::Index rows = 0;
-  /// A possible z of a right model, because columns and residual share noise of the motion. As large as chance makes it
-  /// unless noise dominates a column.
+  /// A right model can have this z, because columns and residual share noise of the motion. It is as large as chance
+  /// makes it unless noise dominates a column.
   Eigen::VectorXd shared;
 };
 SquareRoot squareRootOf(const Eigen::MatrixXd& rows_with_y);
@@ -74,12 +75,13 @@ struct Whitened {
   Eigen::MatrixXd variances;  ///< of the noise, likewise
   Vector6d expected;          ///< root mean squares of noise as the samples explain it, N·m or N
   Eigen::Index rank = 0;      ///< rank of that fit
-  EffortNoise noise;          ///< the noise that this is in units of
+  EffortNoise noise;          ///< the noise, whose deviation is the unit of `rows`
 };
-/// Noise of a motor grows to its residual if that is more than chance.
+/// Divides the comparison by its noise. A motor's noise grows to its residual if that exceeds the noise by more than
+/// chance.
 Whitened whiten(const Comparison& comparison, EffortNoise noise);
 
-/// Sets what columns and residual share. `noisy` is the comparison with the draw's noise in its motion.
+/// Sets `model.shared`. `noisy` is the comparison with the draw's noise in its motion.
 void setShared(const NoiseDraw& draw, const Comparison& comparison, const Comparison& noisy, const Whitened& whitened,
                SquareRoot& model);
 
@@ -108,9 +110,9 @@ BaseFit fitBase(const SquareRoot& model, const std::vector<Direction>& direction
 void setPlausible(const ManipulatorParameters& machine, const Comparison& comparison,
                   std::vector<Direction>& directions);
 
-/// Root mean squares of efforts on rows that were not fitted, divided by what is expected: 1 if the model holds. One is
-/// the given model's, by the noise; the other is that of the fit to the first 70 % of the time, by noise and the fit's
-/// own uncertainty.
+/// Root mean squares of efforts on rows that were not fitted, divided by what is expected. They are 1 if the model
+/// holds. `given` is that of the given model, divided by the noise. `fitted` is that of the fit to the first 70 % of
+/// the time, divided by noise and the fit's own uncertainty.
 struct CrossValidation {
   double given = 0, fitted = 0;
   double from_s = 0;

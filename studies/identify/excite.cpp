@@ -182,7 +182,8 @@ class ExciteSearch {
     return singular(singular.size() - 1) > 0 ? singular(0) / singular(singular.size() - 1) : never;
   }
 
-  /// Returns minus the mean logarithm of the regressor's diagonal; infinite beyond a limit.
+  /// Returns minus the mean logarithm of the diagonal of the regressor's R factor. The smaller it is, the larger is the
+  /// regressor's determinant. Returns infinity beyond a limit.
   double costOf(const Coefficients& of) {
     if (!keepsLimits(of, 2 * instants_)) return never;
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(shownBy(along(of, instants_)));

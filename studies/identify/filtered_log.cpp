@@ -6,14 +6,16 @@
 namespace ursula::identification {
 namespace {
 
-/// end_share is the share of an open log that the low passes may take at each end.
+/// An open log may lose `end_share` of its rows at each end, where a kernel reaches `support` / cut-off. The efforts'
+/// cut-off need not exceed `of_bandwidth` times the bandwidth, nor `beyond_end` times its end. No cut-off exceeds
+/// `of_rate` of the rows' rate; a log is too slow if that is below `enough_of_bandwidth` times the bandwidth.
 constexpr double end_share = 0.12, of_bandwidth = 4, beyond_end = 1.2, enough_of_bandwidth = 2.5, of_rate = 0.18,
                  support = 4.4;
-/// Cut-off of the low pass that shows what the motion's own takes, as a multiple of that one's.
+/// The sharper low pass has this multiple of the motion's cut-off, and so shows what the motion's own low pass takes.
 constexpr double sharper = 1.6, beyond = 1.7;  ///< little passes beyond this multiple of a cut-off
-/// So many instants tell noise from the fit.
+/// This many instants tell noise from the fit.
 constexpr double wanted_instants = 100;
-/// Cut-off of the motion's low pass in units of the efforts': it passes all that those show.
+/// The motion's cut-off is this multiple of the efforts', so the motion keeps all that the efforts show.
 constexpr double apart = 2.5;
 
 /// Extends a period beyond its ends by the periods before and after it.
@@ -40,7 +42,7 @@ void takeFrom(MeasuredState& state, const Eigen::RowVectorXd& noise) {
   state.acceleration -= noise.tail(channels).transpose();
 }
 
-/// A period's series has so many harmonics at most, if more than its own are wanted.
+/// Returns the number of harmonics of a period's series that stands for the sharper low pass.
 int sharperHarmonics(const FilterPlan& plan) {
   return std::min(static_cast<int>(std::ceil(sharper * plan.series.harmonics())), plan.series.known());
 }

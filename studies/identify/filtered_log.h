@@ -7,9 +7,9 @@
 
 namespace ursula::identification {
 
-/// The plan of two low passes. One, or a period's Fourier series, leaves the motion as it is, and gives it and its
-/// rates every `coarse` rows. The other acts alike on measured efforts, modelled efforts and every column of the
-/// regressor. It is sampled every `fine` of those rows, at which white noise is nearly uncorrelated.
+/// A plan has two low passes. The first passes the whole motion and gives it with its rates every `coarse` rows; a
+/// period has a Fourier series instead. The second acts alike on measured efforts, modelled efforts and every column of
+/// the regressor. It is sampled every `fine` of those rows, at which white noise is nearly uncorrelated.
 struct FilterPlan {
   double bandwidth = 0;                  ///< bandwidth of the motion, Hz
   double state_cut = 0, effort_cut = 0;  ///< Hz
@@ -39,13 +39,14 @@ class FilteredLog {
   double step() const { return log_.step * static_cast<double>(plan_.coarse); }
   double time(Eigen::Index i) const;
   const MeasuredState& state(Eigen::Index i) const { return states_[i]; }
-  /// Takes this noise out of the motion, instead of what was taken out before. An instant in each row; value, rate and
-  /// acceleration of all channels.
+  /// Takes this noise out of the motion, instead of what was taken out before. Each row has an instant's value, rate
+  /// and acceleration of all channels.
   void takeOut(const Eigen::MatrixXd& noise);
   const Eigen::MatrixXd& taken() const { return taken_; }
-  /// Returns the same by a low pass with a higher cut-off.
+  /// Returns the motion by the sharper low pass, which has a higher cut-off.
   MeasuredState sharperState(Eigen::Index i) const;
-  /// Returns what this one adds to efforts at the motion's instants: nothing if the motion is a period.
+  /// Returns what the sharper low pass adds to efforts at the motion's instants. It adds nothing if the motion is a
+  /// period.
   Eigen::MatrixXd sharperEfforts() const;
   /// Returns the load of a log that has one.
   Vector6d load(Eigen::Index i) const { return load_.row(i).transpose(); }
@@ -59,18 +60,20 @@ class FilteredLog {
   const std::vector<Eigen::Index>& settled() const { return settled_; }
   /// Returns the segments of the settled instants.
   const std::vector<Segment>& settledSegments() const { return settled_segments_; }
-  /// Returns weights and frequencies, rad/s, whose weighted cosines of the time between two settled instants are the
-  /// covariance of what white noise of deviation 1 on the samples leaves after both low passes.
+  /// Frequencies, rad/s, and weights of noise after low passes. The weighted cosines of a time add up to the covariance
+  /// over that time.
   struct Lines {
     std::vector<double> omega, weight;
 
     /// Returns the covariance of value, rate and acceleration (rows) with those `later` s later (columns).
     Eigen::Matrix3d covariance(double later) const;
   };
+  /// Returns the lines of what white noise of deviation 1 on the samples leaves in the settled efforts.
   Lines effortLines() const;
-  /// The same before the second low pass, at none, one or both of the two instants: `second_passes` is 0, 1 or 2.
+  /// Returns the same lines for the motion. The second low pass acts at none, one or both of the two instants:
+  /// `second_passes` is 0, 1 or 2.
   Lines motionLines(int second_passes = 2) const;
-  /// The same for what the low pass with the higher cut-off passes in addition.
+  /// Returns the same lines for what the sharper low pass passes in addition.
   Lines sharperLines() const;
   /// Returns the time beyond which noise is uncorrelated, s.
   double memory() const;

@@ -16,8 +16,8 @@ using namespace identification;
 
 constexpr double most_delay = 0.25, delay_share = 0.1, settled_delay = 0.002;
 constexpr Eigen::Index fewest_instants = 24;
-/// So many times the motion's likely noise is taken out of the columns. Otherwise columns and residual share it, so
-/// that chance looks like a cause. One pass leaves some of it.
+/// The motion's likely noise is taken out of the columns this many times, because one pass leaves some of it. Otherwise
+/// columns and residual share it, and chance looks like a cause.
 constexpr int noise_passes = 2;
 /// The fitted model's residual may be this many times what noise explains.
 constexpr double most_left = 2;
@@ -143,8 +143,9 @@ class Identification {
     }
   }
 
-  /// Finds out by a draw of noise how much columns and residual share it. Most of it was taken out of the motion, but
-  /// not what the fit takes for numbers, which makes these too small where noise dominates a column.
+  /// Estimates by a draw of noise how much of it columns and residual share. Most of it was taken out of the motion,
+  /// but not the part that the fit takes for numbers. That part makes the numbers too small where noise dominates a
+  /// column.
   void shareNoise(FilteredLog& filtered, const Comparison& comparison) {
     const NoiseDraw draw = drawNoise(filtered, comparison);
     const Eigen::MatrixXd taken = filtered.taken();

@@ -33,7 +33,7 @@ struct MeasuredCause {
   std::vector<std::string> as_well = {};  ///< causes that cannot be told from it
 };
 
-/// The log's value of a number or combination. The interval is of 95 %.
+/// The log's value of a number or combination, with its 95 % interval.
 struct MeasuredNumber {
   std::string name;   ///< path, or the combination in words
   std::string group;  ///< "mass", "center", "inertia", "friction", "rotor", "offset", "delay"
@@ -83,8 +83,8 @@ struct IdentifyResult {
   TimeSeries spectra;               ///< f_Hz; residual_i is the fitted model's residual density, effort²/Hz
 };
 
-/// Compares measured efforts with the model, and estimates the machine's numbers. Throws CsvError and ScenarioError as
-/// readMeasuredLog does, and if the machine cannot follow.
+/// Compares measured efforts with the model, and estimates the machine's numbers. Throws CsvError if the machine cannot
+/// follow the log's motion.
 IdentifyResult identify(const Scenario& scenario, MeasuredLog log, const IdentifyOptions& options = {});
 
 /// Returns the text of `summary.json`.

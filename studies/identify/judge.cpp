@@ -20,8 +20,8 @@ constexpr double risk_of_number = 0.015, risk_outside = 0.015, risk_of_squares =
 constexpr std::size_t most_causes = 6;
 /// Deviations of a normal variable that 95 % do not exceed.
 constexpr double one_sided = 1.645;
-/// A sum of columns below this share of their sizes is their error: they are one-sided differences with a step of 1e-6,
-/// times a curvature that reaches 100 near singular poses. Sums that mean something are above 1e-3.
+/// A sum of columns below this share of their sizes is only their error. They are one-sided differences with a step of
+/// 1e-6, times a curvature that reaches 100 near singular poses. Sums that mean something are above 1e-3.
 constexpr double resolved = 1e-4;
 /// Suspects are indistinguishable if the squares of their scores differ by less.
 constexpr double alike = 4;
@@ -72,7 +72,7 @@ Eigen::MatrixXd basisOf(const Eigen::MatrixXd& x) {
   return qr.householderQ() * Eigen::MatrixXd::Identity(x.rows(), qr.rank());
 }
 
-/// No joint has a negative compliance, backlash or friction.
+/// Returns true for compliance, backlash and friction, which no joint has below zero.
 bool cannotBeNegative(DirectionKind kind) {
   return kind == DirectionKind::elastic || kind == DirectionKind::backlash || kind == DirectionKind::load_friction;
 }
@@ -141,8 +141,8 @@ double likelyMost(Eigen::Index squares) {
       boost::math::complement(boost::math::chi_squared(static_cast<double>(squares)), risk_of_squares));
 }
 
-/// Whether a mass, an inertia or a friction explains all but a hundredth of the squared deviation. What it leaves is
-/// then no other cause, but what is beyond the linearisation, which a log with little noise shows.
+/// Returns whether a mass, an inertia or a friction explains all but a hundredth of the squared deviation. The rest is
+/// then no other cause but the error of the linearisation, which a log with little noise shows.
 bool oneExplainsAll(const std::vector<Suspect>& suspects, const Eigen::MatrixXd& columns, const Allowance& allowance,
                     const Eigen::VectorXd& z) {
   const std::vector<Score> scores = scoresOf(columns, allowance(columns), z);
@@ -151,7 +151,7 @@ bool oneExplainsAll(const std::vector<Suspect>& suspects, const Eigen::MatrixXd&
          scores[best].score * scores[best].score > 0.99 * z.dot(allowance(z).col(0));
 }
 
-/// Finds one cause after another by the first allowance. All of them are then free in all allowances.
+/// Finds one cause after another by the first allowance, and frees each of them in all allowances.
 void findCauses(const std::vector<Suspect>& suspects, const std::vector<Allowance*>& allowances,
                 const Eigen::VectorXd& z, double threshold, bool outside, std::vector<MeasuredCause>& out) {
   if (suspects.empty()) return;

@@ -105,7 +105,7 @@ class LogFinder {
     return has(0) && !has(6) ? 0 : 1;
   }
 
-  /// Whether its index counts motors or legs.
+  /// Returns whether the column's index counts motors or legs.
   static bool counts(const LogColumn& column) {
     return column.quantity == LogQuantity::driven || column.quantity == LogQuantity::effort ||
            column.quantity == LogQuantity::current;

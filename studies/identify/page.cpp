@@ -98,7 +98,7 @@ Plot spectrumPlot(const IdentifyResult& result) {
   return plot;
 }
 
-/// Cells are HTML. `more` rows are left out.
+/// Returns a table whose cells are HTML. It says that `more` rows are left out.
 std::string tableOf(const std::vector<std::string>& heads, const std::vector<std::vector<std::string>>& rows,
                     std::size_t more = 0) {
   if (rows.empty()) return "";

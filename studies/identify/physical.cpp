@@ -8,7 +8,8 @@
 namespace ursula::identification {
 namespace {
 
-/// The barrier's weight in halves of a squared deviation. It moves the result by far less than the noise.
+/// The barrier's weight is in halves of a squared deviation, so it moves the result by far less than the noise. A
+/// number is identified if its uncertainty is below `identified_share` of its assumed size.
 constexpr double barrier_weight = 1e-2, identified_share = 0.1;
 
 bool isOfBodies(const MachineNumber& number) {
@@ -24,10 +25,11 @@ const Matrix3d& inertiaOf(const ManipulatorParameters& machine, const MachineNum
   return number.leg < 0 ? machine.platform.inertia : linkOf(machine, number).inertia;
 }
 
-/// This matrix is positive definite exactly if the moments of inertia are positive and keep the triangle inequality.
+/// Returns a matrix that is positive definite exactly if the moments of inertia are positive and keep the triangle
+/// inequality.
 Matrix3d spreadOf(const Matrix3d& inertia) { return 0.5 * inertia.trace() * Matrix3d::Identity() - inertia; }
 
-/// A thin rod's moments about its line are not estimated.
+/// Returns whether the tensor is that of a thin rod. Such a tensor is not estimated, because it lies on the barrier.
 bool isThin(const Matrix3d& inertia) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(spreadOf(inertia), Eigen::EigenvaluesOnly);
   return solver.eigenvalues()(0) < 1e-9 * solver.eigenvalues()(2);

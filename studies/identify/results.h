@@ -28,7 +28,7 @@ struct Judgement {
   std::map<std::string, double> least_found;
 };
 
-/// Returns every number of the machine and of the log, and those that are equal on all legs also together.
+/// Returns every number of the machine and of the log. Numbers that are equal on all legs also stand together as one.
 std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& comparison,
                                 const ManipulatorParameters& machine, const NumberTolerances& tolerances);
 
@@ -71,7 +71,7 @@ std::string identifiedScenario(const Scenario& scenario, const std::vector<Numbe
 /// Adds what a log in milliseconds or microseconds shows: it lasts a thousand or a million times the scenario's motion.
 void findUnitOfTime(double of_motion, IdentifyResult& out);
 
-/// Whether no coordinate moves by more than its noise.
+/// Returns whether no coordinate moves by more than its noise.
 bool isStill(const MeasuredLog& log);
 
 }  // namespace ursula::identification

@@ -66,7 +66,8 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> longRuns(const std::vector<bo
   return runs;
 }
 
-/// Returns the bandwidth of one channel over rows without a gap.
+/// Returns the bandwidth of one channel over rows without a gap. Second differences stand for the acceleration; `floor`
+/// is the spectrum of their white noise.
 Bandwidth bandwidthOf(const Eigen::VectorXd& signal, double step, double noise) {
   const double nyquist = 0.5 / step;
   const Eigen::Index rows = signal.size() - 2;
@@ -235,8 +236,10 @@ Bandwidth motionBandwidth(const MeasuredLog& log) {
 
 FourierSeries::FourierSeries(const Eigen::MatrixXd& rows, double step, const Eigen::VectorXd& noise, double least)
     : frequency_(1 / (step * static_cast<double>(rows.rows()))), cosines_(rows.colwise().mean().transpose()) {
+  // A harmonic counts if its power is `surely` times the noise's, or `hardly` times after one that counts. The search
+  // ends `silent` harmonics beyond twice the last one that counts, or at `highest` of the rows' rate.
   constexpr double surely = 15, hardly = 3, highest = 0.18, rounding = 1e-11;
-  constexpr int silent = 6, most = 1000;  // so many harmonics in the noise end the series
+  constexpr int silent = 6, most = 1000;
   sines_ = Eigen::MatrixXd::Zero(rows.cols(), 1);
   const auto count = static_cast<double>(rows.rows());
   const Eigen::ArrayXd floor = noise.array().max(rounding * rows.cwiseAbs().maxCoeff()).max(1e-150).square();

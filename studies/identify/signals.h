@@ -15,7 +15,7 @@ struct MeasuredState {
 /// A zero-phase low pass of finite length with its first two derivatives: a sinc under a Gaussian window. Value and
 /// both rates have the same smoothing. Relations between unfiltered signals therefore hold between filtered ones.
 struct Kernel {
-  /// Serves rows `step` s apart, at a row's instant plus `shift` s. Half of the power passes at `cut`, Hz.
+  /// Serves rows `step` s apart, at a row's instant plus `shift` s. Half of the amplitude passes at `cut`, Hz.
   Kernel(double cut, double step, double shift = 0);
 
   /// Applies `weights` at the rows `centers` of `x`, each at least `half` rows from its ends.
@@ -31,8 +31,8 @@ struct Kernel {
   Eigen::VectorXd value, rate, acceleration;  ///< weights for rows −half … half
 };
 
-/// Returns the deviation of white noise on a signal that is smooth over seven rows. It is the median of blocks of sixth
-/// differences, without those that a `filled` row enters.
+/// Returns the deviation of white noise on a signal that is smooth over seven rows. It is the median over blocks of
+/// sixth differences, without those that a `filled` row enters.
 double whiteNoise(const Eigen::VectorXd& signal, const std::vector<bool>& filled = {});
 
 /// Returns the variance of each column.
@@ -55,14 +55,16 @@ Bandwidth motionBandwidth(const MeasuredLog& log);
 class FourierSeries {
  public:
   FourierSeries() = default;
-  /// Coefficients of a channel in each row, of a harmonic in each column; the first cosine is the mean.
+  /// Takes coefficients, a channel in each row and a harmonic in each column; the first cosine is the mean. harmonics()
+  /// is 0.
   FourierSeries(double frequency, Eigen::MatrixXd cosines, Eigen::MatrixXd sines)
       : frequency_(frequency), cosines_(std::move(cosines)), sines_(std::move(sines)) {}
-  /// Ends with the last harmonic above white noise of this deviation for each channel, not before `least` Hz.
+  /// Fits the rows. `noise` has the deviation of each channel's white noise. harmonics() is one more than the last
+  /// harmonic above the noise. The search goes at least up to `least` Hz, if the rows allow that.
   FourierSeries(const Eigen::MatrixXd& rows, double step, const Eigen::VectorXd& noise, double least);
 
   int harmonics() const { return harmonics_; }
-  /// Returns the number of harmonics with their noise.
+  /// Returns the number of all harmonics that the search found, those in the noise included.
   int known() const { return static_cast<int>(cosines_.cols()) - 1; }
   double frequency() const { return frequency_; }
   /// Returns the sum of the first `harmonics` <= known() harmonics.
@@ -74,11 +76,11 @@ class FourierSeries {
   Eigen::MatrixXd cosines_, sines_;
 };
 
-/// Returns the one-sided power spectral density, unit²/Hz, at k / (2 (size − 1) step) Hz. It uses half-overlapping Hann
-/// windows.
+/// Returns the one-sided power spectral density by half-overlapping Hann windows, unit²/Hz. Entry k of n is at k / (2
+/// (n − 1) step) Hz.
 Eigen::VectorXd powerSpectrum(const Eigen::VectorXd& signal, double step, int most_size = 512);
 
-/// Standard deviation of white noise on each channel of a log's rows.
+/// The standard deviation of white noise on each channel of a log's rows.
 struct SampleNoise {
   Eigen::VectorXd motion, efforts;
 };
