@@ -30,7 +30,7 @@ const std::map<std::string, JointKind> kinds_in_mjcf = {{"hinge", JointKind::rev
                                                         {"ball", JointKind::ball},
                                                         {"free", JointKind::free}};
 
-/// The reference of an element's numbers.
+/// The frame and the class to which an element's numbers refer.
 struct Place {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();  ///< in the world
   std::string childclass;
@@ -100,7 +100,7 @@ class MjcfReader {
     });
   }
 
-  /// Reads geoms, sites and child bodies of the body with index `body`.
+  /// Reads inertia, geoms, sites and child bodies of the body with index `body`.
   void readChildren(const Element& element, std::size_t body, const Place& place) {
     const Element* inertial = onlyChild(element, "inertial");
     if (inertial != nullptr) listUnknownAttributes(*inertial, known_of_inertial, graph_.assumptions);
@@ -242,7 +242,7 @@ class MjcfReader {
     joint.upper = inUnits(ends[1]);
   }
 
-  /// Smoothing speeds of friction that `ursula export` wrote.
+  /// Reads the smoothing speeds of friction that `ursula export` wrote: NAME_smoothing_speed in <custom>.
   void readSmoothing() {
     const std::string end = "_smoothing_speed";
     eachChild(root_, "custom", [&](const Element& custom) {

@@ -48,7 +48,7 @@ class MjcfDefaults {
 /// what the file says elsewhere.
 void readMjcfOptions(const Element& root, ModelGraph& graph);
 
-/// Orientation by quat, axisangle, euler, xyaxes or zaxis. Throws ImportError if more than one is given.
+/// Returns the orientation by quat, axisangle, euler, xyaxes or zaxis. Throws ImportError if more than one is given.
 Matrix3d mjcfOrientation(const Element& element, const MjcfCompiler& compiler,
                          const std::function<std::string(const char*)>& get);
 
@@ -69,7 +69,7 @@ struct MjcfSite {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();  ///< in the world
 };
 
-/// What the tree gave names to: indices of the graph's bodies and joints.
+/// The names that the tree gave: indices of the graph's bodies and joints, and sites.
 struct MjcfNamed {
   std::unordered_map<std::string, std::size_t> bodies, joints;
   std::unordered_map<std::string, MjcfSite> sites;

@@ -40,7 +40,7 @@ struct Shape {
   Vector3d moments = Vector3d::Zero();  ///< for unit mass, about the shape's axes
 };
 
-/// Mass and moments according to MuJoCo's reference: sizes are half lengths and radii.
+/// Returns volume and moments according to MuJoCo's reference, in which sizes are half lengths and radii.
 Shape shapeOf(const Element& geom, const std::string& type, const std::vector<double>& size) {
   const auto needed = type == "sphere" ? 1U : type == "box" || type == "ellipsoid" ? 3U : 2U;
   if (size.size() < needed)
@@ -189,7 +189,7 @@ Matrix3d mjcfOrientation(const Element& element, const MjcfCompiler& compiler,
   }
   if (what == "zaxis") {
     const Vector3d z = directionOf(element, vectorOf(element, text, what), what);
-    // Uses the smallest rotation that takes z there; half a turn about x if it is opposite.
+    // This is the smallest rotation that takes z there; it is half a turn about x if z is opposite.
     return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), z).toRotationMatrix();
   }
   const std::vector<double> v = numbersOf(element, text, 6, what);

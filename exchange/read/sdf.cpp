@@ -79,7 +79,8 @@ class SdfReader {
                                     fmt::format("<{}>", top.Name()), 9.8, "m/s²"});
   }
 
-  /// A frame's name in an attribute; before 1.7 some readers go by it and some do not.
+  /// Returns a frame's name in an attribute. Refuses one before version 1.7, because readers differ in whether they
+  /// heed it.
   std::string frameNamed(const Element* element, const char* name) const {
     const std::string frame = element == nullptr ? "" : attribute(*element, name);
     if (minor_ < 7 && !frame.empty())
@@ -141,13 +142,13 @@ class SdfReader {
     if (!placement.empty()) place(element, model, placement);
   }
 
-  /// The first link of a nested model represents a model without own links.
+  /// Lets the first link of a nested model represent a model without own links.
   void takeFirstLink(const Element& element, std::size_t model) {
     if (const Element* inner = element.FirstChildElement("model"))
       frames_[model].body = frames_[frames_.find(*inner, model, attribute(*inner, "name"), "model")].body;
   }
 
-  /// The given pose is that of another frame of the model.
+  /// Moves the model so that its given pose is that of another frame in it.
   void place(const Element& element, std::size_t model, const std::string& placement) {
     Eigen::Isometry3d inside = Eigen::Isometry3d::Identity();
     std::size_t at = frames_.find(element, model, placement, "placement_frame");
@@ -227,7 +228,7 @@ class SdfReader {
     }
   }
 
-  /// Two hinges with a massless frame between them.
+  /// Adds two hinges with a massless frame between them.
   void addTwoAxes(const Element& element, const std::string& type, std::size_t scope, const Eigen::Isometry3d& at,
                   GraphJoint joint) {
     if (!element.FirstChildElement("axis") || !element.FirstChildElement("axis2"))

@@ -31,7 +31,7 @@ void takeDynamics(const Element& joint_element, const Element& dynamics, GraphJo
     refuse(joint_element, fmt::format("a spring of {}, which a scenario has no words for", stiffness));
 }
 
-/// What cannot be had as numbers: added mass of a fluid, an inertia from shapes.
+/// Refuses what cannot be had as numbers: added mass of a fluid, an inertia from shapes.
 void requirePlain(const Element& link, const Element& inertial) {
   if (inertial.FirstChildElement("fluid_added_mass"))
     refuse(link, "<fluid_added_mass>, which a scenario has no words for");
@@ -44,7 +44,7 @@ void requirePlain(const Element& link, const Element& inertial) {
              fmt::format("{} in the <pose> of <inertial>, which SDF does not allow: that is always in the link", name));
 }
 
-/// URDF has attributes where SDF has text.
+/// Returns a child's value, which is an attribute in URDF and text in SDF.
 std::string valueOf(const Element& element, const char* child, const char* of_urdf) {
   const Element* found = element.FirstChildElement(child);
   if (found == nullptr) return "";

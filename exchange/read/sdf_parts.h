@@ -51,14 +51,14 @@ class SdfFrames {
   std::vector<Eigen::Isometry3d> in_world_;
 };
 
-/// Position and rotation of an element's <pose>; the identity without one.
+/// Returns position and rotation of an element's <pose>; the identity without one.
 Eigen::Isometry3d sdfPoseOf(const Element& element);
 
-/// Reads <inertial>: mass, mass centre and tensor, for a body whose frame is known. SDF's defaults are said.
+/// Reads <inertial>: mass, mass centre and tensor, for a body whose frame is known. SDF's defaults become assumptions.
 void takeSdfInertial(const Element& link, GraphBody& body, Assumptions& assumptions);
 
-/// Reads limits and friction of an <axis>; `endless` leaves the limits out. Throws ImportError for springs, mimic and
-/// joints that cannot move.
+/// Reads limits, friction, motor and rotor of an <axis>; `endless` leaves the limits out. Throws ImportError for
+/// springs, mimic and joints that cannot move.
 void takeSdfMotion(const Element& joint_element, const Element& axis, bool endless, GraphJoint& joint,
                    Assumptions& assumptions);
 
@@ -67,16 +67,17 @@ void takeRange(const Element& limit, TextOfWord text, GraphJoint& joint);
 /// Reads damping and friction. Throws ImportError for one below zero.
 void takeRubbing(const Element& joint_element, const Element& dynamics, TextOfWord text, GraphJoint& joint);
 
-/// Lists the plugins of `element`, which may bring forces. Throws ImportError for those that couple joints.
+/// Lists the plugins of `element`, which may bring forces. Throws ImportError for those whose file name has "mimic" or
+/// "spring", as they couple joints or pull at them.
 void listPlugins(const Element& element, const std::string& of, Assumptions& assumptions);
 
-/// Refuses a <velocity_decay> in `element` above zero, and `factor`, which is URDF's word for it.
+/// Refuses a <velocity_decay> in `element` above zero. `factor` is the text of URDF's element for the same.
 void refuseSdfDecay(const Element& element, const std::string& factor = "");
 
 /// Refuses <include>, but for the usual light and floor of a world, which are listed.
 void refuseSdfIncludes(const Element& scope, Assumptions& assumptions);
 
-/// Drake's own elements in SDF and URDF.
+/// Drake's own elements follow, which stand in SDF and URDF.
 
 /// A body's index by its name.
 using BodyByName = std::function<std::size_t(const Element&, const std::string&)>;

@@ -97,7 +97,7 @@ class UrdfReader {
     ends_.emplace_back(linkOf(element, "parent"), linkOf(element, "child"));
   }
 
-  /// Every link except the root is the child of one joint.
+  /// Places the links from the root on. Throws ImportError unless every other link is the child of one joint.
   void placeTree() {
     std::vector<std::size_t> joint_of(graph_.bodies.size(), elements_.size());
     std::vector<std::vector<std::size_t>> children(graph_.bodies.size());

@@ -103,7 +103,8 @@ class Closer {
     graph_.joints.push_back(ball);
   }
 
-  /// As in SDF 1.7, to which URDF is converted today: pose in the child, axis in the joint's frame.
+  /// Reads the joint as in SDF 1.7, to which URDF is converted today: the pose is in the child, the axis in the joint's
+  /// frame.
   void gazebo(const Element& element) {
     const std::string type = requiredAttribute(element, "type");
     const auto kind = kinds_of_closure.find(type);
@@ -148,7 +149,7 @@ class Closer {
     takeMotors(text["name_mot"]);
   }
 
-  /// A single word is part of the motors' names; in a list each word is a full name.
+  /// Marks the driven joints. A single word is a part of the motors' names; in a list each word is a full name.
   void takeMotors(const std::vector<std::string>& motors) {
     for (const std::string& motor : motors) {
       bool found = false;
@@ -161,6 +162,7 @@ class Closer {
     }
   }
 
+  /// Joins the links closing_NAME_1 and closing_NAME_2 by a ball.
   void named() {
     std::map<std::string, int> first;
     for (const auto& [name, index] : links_)

@@ -13,7 +13,8 @@ namespace ursula::exchange {
 using UrdfLinks = std::unordered_map<std::string, std::size_t>;
 
 /// Reads the closures of the tree's loops from the first available source: Drake's ball constraints, Isaac Sim's loop
-/// joints, SDF joints in <gazebo>, robot.yaml next to the file, links named closing_NAME_1 and closing_NAME_2.
+/// joints, SDF joints in <gazebo>, robot.yaml next to the file, links named closing_NAME_1 and closing_NAME_2. Isaac
+/// Sim's and Gazebo's may repeat those of an earlier source; other ones are refused.
 void readUrdfClosures(const Element& robot, const std::filesystem::path& file, const UrdfLinks& links,
                       ModelGraph& graph);
 

@@ -34,7 +34,8 @@ int lineAt(const std::string& text, std::size_t place) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(place), '\n'));
 }
 
-/// Counts tags and attributes before parsing, because the parser is slow and large for huge counts.
+/// Counts tags and attributes before the text is parsed, because the parser is slow and takes much memory for huge
+/// counts.
 class Size {
  public:
   explicit Size(const std::string& text) : text_(text) {}

@@ -24,12 +24,12 @@ constexpr std::size_t most_numbers = 100;
 constexpr std::size_t most_unknown = 200;  ///< the longest list of unknown names
 constexpr std::size_t most_tags = 25'000, most_attributes = 100'000, most_attributes_of_one = 100;
 
-/// Refuses a text beyond these bounds, and own entities. Throws ImportError.
+/// Refuses a text beyond these bounds, and one that declares an entity. Throws ImportError.
 void requireModest(const std::string& text);
-/// Parses a modest text and expands no entity. Throws ImportError.
+/// Parses a text that requireModest() accepted. It expands no entity. Throws ImportError.
 void parseXml(const std::string& text, tinyxml2::XMLDocument& document);
 
-/// "<joint name='a'>", for messages.
+/// Returns the element for messages: "<joint name='a'>".
 std::string named(const Element& element);
 [[noreturn]] void refuse(const Element& element, const std::string& what);
 
@@ -49,10 +49,10 @@ double numberOf(const Element& at, std::string_view text, const std::string& wha
 Vector3d vectorOf(const Element& at, std::string_view text, const std::string& what);
 /// Reads "true", "1", "false" or "0". Throws for other words.
 bool truthOf(const Element& at, const std::string& text, const std::string& what);
-/// Half a unit of the last written digit, the largest over the numbers: "0.25 1" gives 0.5.
+/// Returns half a unit of the last written digit, the largest over the numbers: "0.25 1.5" gives 0.05.
 double halfLastDigit(std::string_view text);
 
-/// Visits child elements of a name, or all: for (const Element* e = first; e; e = next).
+/// Visits child elements of a name, or all of them if `name` is null.
 template <class Visit>
 void eachChild(const Element& element, const char* name, const Visit& visit) {
   for (const Element* e = element.FirstChildElement(name); e != nullptr; e = e->NextSiblingElement(name)) visit(*e);
@@ -70,7 +70,7 @@ std::string nameOr(const Element& element, const std::string& kind);
 /// Returns a joint of that name at the element's line.
 GraphJoint jointAt(const Element& element, const std::string& name, JointKind kind = JointKind::fixed);
 
-/// A word's text: of a child in SDF (`childText`), of an attribute in URDF (`attribute`).
+/// Returns a value's text: that of a child in SDF (`childText`), of an attribute in URDF (`attribute`).
 using TextOfWord = std::string (*)(const Element&, const char*);
 /// Takes ixx, iyy, izz, ixy, ixz and iyz of `inertia` in the frame `at`, whose origin is the mass centre. If the file
 /// lacks the k-th, `missing(k, name)` is taken.
@@ -79,10 +79,10 @@ void takeInertia(const Element& inertia, TextOfWord text, const Eigen::Isometry3
 
 /// Returns a unit vector. Throws if it is zero.
 Vector3d directionOf(const Element& at, const Vector3d& vector, const std::string& what);
-/// Rz(yaw) Ry(pitch) Rx(roll), rad.
+/// Returns Rz(yaw) Ry(pitch) Rx(roll) for [roll, pitch, yaw], rad.
 Matrix3d rollPitchYaw(const Vector3d& angles);
 Eigen::Isometry3d placed(const Vector3d& position, const Matrix3d& rotation);
-/// [xx, yy, zz, xy, xz, yz] as a tensor.
+/// Returns the tensor of the diagonal [xx, yy, zz] and the products [xy, xz, yz].
 Matrix3d tensorOf(const Vector3d& diagonal, const Vector3d& products);
 
 /// One reader per format returns the graph of a parsed file. Readers throw ImportError for unknown elements and for

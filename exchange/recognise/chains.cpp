@@ -34,7 +34,8 @@ class Net {
   const std::vector<Edge>& at(std::size_t group) const { return edges_[group]; }
   std::string name(std::size_t group) const { return shown(groups_.groups[group].name); }
 
-  /// Removes branches that end free: frames are dropped, a mass is refused.
+  /// Removes branches of massless frames that end free. A branch with a mass stays, and walk() or the count of joints
+  /// refuses it.
   void trimFrames() {
     std::vector<std::size_t> ends;
     for (std::size_t i = 0; i < edges_.size(); ++i)
@@ -62,7 +63,7 @@ class Net {
   std::string names(const std::vector<std::size_t>& groups) const {
     return listed(groups, [this](std::size_t group) { return name(group); });
   }
-  /// The bodies that fixed joints hold together.
+  /// Returns the names of the bodies that fixed joints hold together.
   std::string bodiesOf(std::size_t group) const {
     return listed(groups_.groups[group].bodies, [this](std::size_t body) { return shown(graph_.bodies[body].name); });
   }
@@ -84,7 +85,7 @@ class Net {
   std::vector<std::vector<Edge>> edges_;
 };
 
-/// "; --close A:B closes a loop, …" with the links without children whose frames coincide.
+/// Returns "; --close A:B closes a loop, …" for a URDF. It offers links without children whose frames coincide.
 std::string offeredLoops(const ModelGraph& graph, const Groups& groups) {
   constexpr std::size_t most = 100;
   constexpr double apart = 1e-6;  // m
@@ -197,8 +198,8 @@ Chain walk(const ModelGraph& graph, const Groups& groups, const Net& net, const 
   }
 }
 
-/// A chain of massless frames with six undriven, frictionless joints constrains nothing; some files attach a free
-/// platform this way.
+/// Returns whether the chain constrains nothing: massless frames with six undriven, frictionless joints. Some files
+/// attach a free platform this way.
 bool holdsNothing(const ModelGraph& graph, const Groups& groups, const Chain& chain) {
   std::size_t freedoms = 0, slides = 0;
   for (const Primitive& p : chain.primitives) {
@@ -211,8 +212,8 @@ bool holdsNothing(const ModelGraph& graph, const Groups& groups, const Chain& ch
   return freedoms == 6 && slides == 3;
 }
 
-/// The place of a leg: that of its first motor among the file's or the user's, then that of its first joint. Efforts
-/// go leg by leg, so they come in the order of the motors.
+/// Returns the place of a leg: that of its first motor among the file's or the user's, then that of its first joint.
+/// Efforts go leg by leg, so they come in the order of the motors.
 std::pair<std::size_t, std::size_t> placeOf(const ModelGraph& graph, const Chain& chain) {
   const auto begin = graph.motors.begin(), end = graph.motors.end();
   std::pair<std::size_t, std::size_t> first(graph.motors.size(), graph.joints.size());

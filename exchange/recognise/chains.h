@@ -20,8 +20,9 @@ struct Group {
   double inertia_rounding = 0;
   bool weightless = false;  ///< some of its mass has no gravity
 
+  /// Returns whether the group has neither mass nor inertia, as a frame between two joints of one point.
   bool isFrame() const { return mass == 0 && inertia.isZero(0); }
-  /// The tensor about `point`.
+  /// Returns the tensor about `point`.
   Matrix3d inertiaAbout(const Vector3d& point) const;
   /// Adds another body by the parallel-axis rule.
   void add(double mass_of_it, const Vector3d& center, const Matrix3d& inertia_of_it);
@@ -34,10 +35,10 @@ struct Group {
 /// Throws ImportError if a part of the group has no gravity.
 void requireWeight(const Group& group);
 
-/// m ([r]·[r] 1 − r rᵀ)
+/// Returns the tensor of a point mass at `r` about the origin: m (rᵀr 1 − r rᵀ).
 Matrix3d pointInertia(double mass, const Vector3d& r);
 
-/// The machine's rigid bodies; only moving joints remain between them.
+/// The machine's rigid bodies. Only moving joints remain between them.
 struct Groups {
   std::vector<Group> groups;
   std::vector<std::size_t> group_of;  ///< the group of each body
@@ -48,7 +49,7 @@ struct Groups {
 /// Returns the index of the named body. Throws ImportError with the nearest name if there is none.
 std::size_t bodyNamed(const ModelGraph& graph, const std::string& name, const std::string& option);
 
-/// A single-axis joint or a ball between base and platform, at the initial pose, in the world.
+/// A single-axis joint or a ball between base and platform, at the initial pose. Its vectors are in the world.
 struct Primitive {
   enum class Kind { R, P, S } kind = Kind::R;
   Vector3d axis = Vector3d::Zero();   ///< the coordinate grows as the outer part turns about it or slides along it

@@ -33,7 +33,7 @@ Group sumOf(const LegTask& task, const std::vector<std::size_t>& groups) {
   return out;
 }
 
-/// Points and axes are in the world; only F̂ uses B's axes.
+/// Measures one leg. Points and axes are in the world; only F̂ uses B's axes.
 class LegMaker {
  public:
   explicit LegMaker(const LegTask& task) : task_(task), shape_(task.shape), joints_(task.shape.joints) {}
@@ -84,7 +84,7 @@ class LegMaker {
       task_.assumptions.push_back({fmt::format("{}: taken as exact", what), shape_.place, angle, "rad"});
   }
 
-  /// If a ball replaces the universal joint, any direction across the line will do.
+  /// Returns a direction across the line. If a ball replaces the universal joint, any of them will do.
   Vector3d someAcross(const Vector3d& line) const {
     const Vector3d up = task_.base.linear().col(2), side = task_.base.linear().col(0);
     const Vector3d across = line.cross(up);
@@ -177,7 +177,7 @@ class LegMaker {
     distal_frame_ = placedAt(C_outer, frameOf(x, along));
   }
 
-  /// The joint between crank or carriage and rod, from the side of either.
+  /// Sets the centre of the joint between crank or carriage and rod, on the inner and on the outer body.
   void middleJoint(Vector3d& inner, Vector3d& outer) const {
     const Primitive &first = joints_[1], &second = joints_[2];
     const Vector3d met =

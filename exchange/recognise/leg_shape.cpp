@@ -16,7 +16,7 @@ namespace {
 using Kind = Primitive::Kind;
 using Body = std::optional<std::size_t>;
 
-/// The joints of a kind of leg from the base, as a file has them: "RRPS" of U P S.
+/// The joints of a kind of leg from the base, a letter for each joint of a file: "RRPS" of U P S.
 struct KindOfChain {
   explicit KindOfChain(LegKind of) : kind(of), universal(rowOf(of).joints_of_proximal == 2 ? 0 : 1) {
     for (const Coordinate each : rowOf(of).coordinates) joints += slides(each) ? 'P' : 'R';
@@ -32,7 +32,7 @@ struct KindOfChain {
 
 std::string spaced(const std::string& word) { return fmt::format("{}", fmt::join(word, " ")); }
 
-/// "U R S, U P S, R U S or P U S"
+/// Returns "U R S, U P S, R U S or P U S".
 std::string knownChains() {
   std::string out;
   for (std::size_t k = 0; k < leg_kind_count; ++k)
@@ -57,6 +57,7 @@ class Shaper {
     const std::string found = word();
     if (found == "SPRR")
       refuseLeg("is S P U from the base; the legs are U P S, and base and platform cannot be exchanged");
+    // Several kinds can have these letters; the one whose universal joint fits best is taken.
     std::optional<KindOfChain> best;
     for (std::size_t k = 0; k < leg_kind_count; ++k) {
       const KindOfChain kind(static_cast<LegKind>(k));
@@ -83,6 +84,7 @@ class Shaper {
 
   double tolerance() const { return choices_.tolerance * size_; }
 
+  /// Notes a part of the tolerance that is used, unless it is rounding.
   void use(const char* what, const std::string& where, double by, const char* unit, double scale) {
     if (by > worth_saying * scale) shape_.assumptions.push_back({what, where, by, unit});
   }
@@ -161,7 +163,7 @@ class Shaper {
     }
   }
 
-  /// Drops a hinge along the leg's own line beside a ball; it only lets the rod spin.
+  /// Drops a hinge along the leg's own line beside a ball, because it only lets the rod spin.
   void dropIdleSpin() {
     const std::string found = word();
     std::size_t at = 0;
@@ -228,7 +230,7 @@ class Shaper {
     return commonPerpendicular(a.outer, a.axis, b.inner, b.axis);
   }
 
-  /// How much two hinges differ from a universal joint.
+  /// Returns how much two hinges differ from a universal joint.
   double badness(std::size_t k) const { return std::abs(std::cos(meeting(k).angle)) + meeting(k).apart / size_; }
 
   void requireUniversal(std::size_t k) {

@@ -17,14 +17,15 @@ struct Cross {
   Vector3d centre = Vector3d::Zero();
 };
 
-/// Smaller values, relative to the machine's size or in rad, are rounding of a file's digits and not reported.
+/// Assumptions of a smaller size, relative to the machine or in rad, are rounding of a file's digits and not reported.
 constexpr double worth_saying = 1e-9;
 
 /// A recognised chain: three single-axis joints and a ball.
 struct LegShape {
   LegKind kind = LegKind::UPS;
   std::string place;  ///< its joints, for messages
-  /// The three coordinates of the kind, then the ball; a ball in place of the universal joint is one instead of two.
+  /// The joints of the three coordinates, then the ball on the platform. A ball in place of the universal joint takes
+  /// one place instead of two.
   std::vector<Primitive> joints;
   std::optional<std::size_t> inner_ball;      ///< index in `joints` of that ball, if the rod is free to spin
   std::vector<std::size_t> proximal, distal;  ///< groups
@@ -32,7 +33,7 @@ struct LegShape {
   std::vector<Cross> crosses;
   Assumptions assumptions;  ///< the used part of the tolerance
 
-  /// Index in `joints` of one of the kind's coordinates; nothing if the inner ball replaces it.
+  /// Returns the index in `joints` of one of the kind's coordinates. Returns nothing if the inner ball replaces it.
   std::optional<std::size_t> jointOf(std::size_t coordinate) const;
 };
 
@@ -84,8 +85,8 @@ Stroke strokeOf(const LegTask& task, const Primitive& slide, const Vector3d& alo
 /// `line_may_be_zero` the third entry may be zero. Throws ImportError for larger errors.
 Matrix3d snapped(const Matrix3d& inertia, bool line_may_be_zero, const Group& body, Assumptions& assumptions);
 
-/// Combines bodies into one link. `frame` is in the world, with its origin at the link's first end; its axis `line` is
-/// along it.
+/// Combines bodies into one link. `frame` is in the world, with its origin at the first end of the link. Its axis
+/// number `line` lies along the link.
 Link linkOf(const LegTask& task, const Group& link, const Eigen::Isometry3d& frame, int line, double length,
             bool line_may_be_zero);
 
@@ -94,8 +95,8 @@ Link linkOf(const LegTask& task, const Group& link, const Eigen::Isometry3d& fra
 /// moments, a mass centre off the line.
 void freeSpin(const LegTask& task, const Group& body, const Eigen::Isometry3d& frame, bool keep_moment, Link& link);
 
-/// Reports the loss from the joints' crosses as a share of the leg's moments; adds their masses to the bodies they ride
-/// on.
+/// Reports what is lost with the tensors of the joints' crosses, as a share of the leg's moments. Adds their masses to
+/// the bodies that they ride on.
 void lumpCrosses(const LegTask& task, const Vector3d& base_point, Group& proximal, const Group& distal);
 
 }  // namespace ursula::exchange

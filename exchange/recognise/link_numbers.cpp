@@ -12,7 +12,8 @@ namespace ursula::exchange {
 namespace {
 
 constexpr double eps = 2.3e-16;
-constexpr double most_of_the_digits = 0.1;  ///< of the largest moment, what rounded digits may leave open
+/// Rounded digits may leave at most this share of the largest moment open.
+constexpr double most_of_the_digits = 0.1;
 
 std::string moments(const Vector3d& m) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", m.x(), m.y(), m.z()); }
 
@@ -74,7 +75,7 @@ Matrix3d snapped(const Matrix3d& inertia, bool line_may_be_zero, const Group& bo
   const Matrix3d symmetric = (inertia + inertia.transpose()) / 2;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(symmetric);
   Vector3d m = principal.eigenvalues();
-  // One digit, as of 1e5, would leave open what it likes.
+  // A number with a single digit, such as 1e5, would otherwise excuse any error.
   const double noise = 256 * eps * m.cwiseAbs().maxCoeff(),
                slack = std::min(3 * body.inertia_rounding, most_of_the_digits * m.cwiseAbs().maxCoeff()) + noise;
   const bool line_is_zero = line_may_be_zero && std::abs(symmetric(2, 2)) <= noise;
@@ -82,7 +83,7 @@ Matrix3d snapped(const Matrix3d& inertia, bool line_may_be_zero, const Group& bo
     refuseBody(body, fmt::format(": principal moments of inertia {}, expected all of them above zero", moments(m)));
   const double excess = m(2) - m(1) - std::max(m(0), 0.0);
   if (excess <= 8 * eps * m(2) && !line_is_zero) return symmetric;
-  // A turned tensor has rounding where a thin rod has zero.
+  // A turned tensor has rounding where that of a thin rod has zero.
   if (excess <= noise && line_is_zero) return ((m(1) + m(2)) / 2 * Vector3d(1, 1, 0)).asDiagonal();
   if (!(excess <= slack))
     refuseBody(body, fmt::format(": principal moments of inertia {}: the largest exceeds the sum of the others by "

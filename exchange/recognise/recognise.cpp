@@ -14,7 +14,7 @@
 namespace ursula::exchange {
 namespace {
 
-/// `--close A:B`: a ball joins the origins of two links' frames.
+/// Applies `--close A:B`: a ball joins the origins of the two links' frames.
 void close(ModelGraph& graph, const std::vector<std::string>& pairs) {
   for (const std::string& pair : pairs) {
     std::size_t colon = pair.find(':');
@@ -55,7 +55,7 @@ void drive(ModelGraph& graph, std::vector<std::string> names) {
   }
 }
 
-/// Two balls between the same bodies form a hinge through both; MJCF closes a loop at a hinge this way.
+/// Makes a hinge of two balls between the same bodies, through both. MJCF closes a loop at a hinge this way.
 void takeHinges(ModelGraph& graph) {
   const Groups groups(graph);
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> balls;
@@ -76,7 +76,7 @@ void takeHinges(ModelGraph& graph) {
   }
 }
 
-/// The diagonal of the bounding box of all the legs' joints.
+/// Returns the diagonal of the bounding box of all the legs' joints.
 double sizeOf(const Chains& chains) {
   Vector3d least = Vector3d::Constant(1e300), most = Vector3d::Constant(-1e300);
   for (const Chain& leg : chains.legs)
@@ -158,6 +158,7 @@ class Recogniser {
                     usual.size() == 6 ? fmt::format(". As a rule: --actuated {}", fmt::join(usual, ",")) : ""));
   }
 
+  /// Returns the name of the format in messages.
   std::string upper() const { return graph_.format == "urdf" ? "URDF" : graph_.format == "sdf" ? "SDF" : "the file"; }
 
   void takePlatform(const Group& platform, const Eigen::Isometry3d& B, const Eigen::Isometry3d& M) {
@@ -174,7 +175,7 @@ class Recogniser {
     machine_.initial.Q = pose.linear();
   }
 
-  /// Several motors of one leg stand together, in the order of its joints.
+  /// Says that efforts go leg by leg, if the file or the user gave the motors in another order.
   void sayOrder() {
     std::vector<std::string> motors;
     for (const ImportedLeg& leg : machine_.legs) motors.insert(motors.end(), leg.motors.begin(), leg.motors.end());
@@ -184,7 +185,8 @@ class Recogniser {
            fmt::format("{}", fmt::join(motors, ", ")), static_cast<double>(motors.size()), "1"});
   }
 
-  /// Strokes of telescopic legs are kept; a scenario cannot express other limits.
+  /// Says which limits of joints are left out. Strokes of telescopic legs are kept; a scenario cannot express other
+  /// limits.
   void sayLimits(const Chains& chains) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < chains.legs.size(); ++i)
