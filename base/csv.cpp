@@ -47,7 +47,7 @@ std::vector<std::size_t> readHeader(const std::vector<std::string>& cells, const
   return wanted;
 }
 
-/// The power of ten of the last digit of a finite number. Exponents beyond a double's range are clipped.
+/// Returns the power of ten of the last digit of a finite number. Exponents beyond a double's range are clipped.
 int lastPlace(std::string_view cell) {
   const auto e = cell.find_first_of("eE");
   const std::string_view mantissa = cell.substr(0, e);
@@ -62,7 +62,7 @@ int lastPlace(std::string_view cell) {
   return std::clamp(exponent, -400, 400) - decimals;
 }
 
-/// Uses std::from_chars because it ignores the locale. It refuses a leading plus, which is harmless and therefore
+/// Reads by std::from_chars, because it ignores the locale. It refuses a leading plus, which is harmless and therefore
 /// removed.
 double readNumber(std::string_view cell, const CsvTable& table, bool finite, int line, const std::string& column) {
   if (cell.empty() && !finite) return std::nan("");
@@ -101,7 +101,8 @@ void readRow(std::string_view text, int line, const std::vector<std::size_t>& wa
   table.lines.push_back(line);
 }
 
-/// Whether two names differ in their index alone, like p_x_m and p_y_m. One is never a misspelling of the other.
+/// Returns whether two names differ in their index alone, like p_x_m and p_y_m. One is never a misspelling of the
+/// other.
 bool areSiblings(const std::string& a, const std::string& b) {
   if (a.size() != b.size()) return false;
   const auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin());

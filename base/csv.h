@@ -29,12 +29,12 @@ struct CsvTable {
   std::vector<int> lines;                     ///< 1-based line of each row in the file
   std::vector<std::string> ignored;           ///< names of the columns that were not wanted
 
-  /// The column of that name, or null if there is none.
+  /// Returns the column of that name, or null if there is none.
   const std::vector<double>* find(const std::string& name) const;
-  /// The same, but throws CsvError if there is none; the message names the nearest column.
+  /// Returns the same, but throws CsvError if there is none; the message names the nearest column.
   const std::vector<double>& at(const std::string& name) const;
   std::size_t rows() const { return lines.size(); }
-  /// The place of a row, `file:line`, for the caller's own errors.
+  /// Returns the place of a row, `file:line`, for the caller's own errors.
   std::string place(std::size_t row) const;
 };
 
@@ -52,7 +52,7 @@ std::string readCsvText(const std::filesystem::path& file);
 /// also refuses numbers that are not finite.
 CsvTable readCsv(const std::filesystem::path& file, const CsvOptions& options = {});
 
-/// The same from a text; `file` names it in errors.
+/// Reads the same from a text; `file` names it in errors.
 CsvTable parseCsv(const std::string& text, const std::filesystem::path& file, const CsvOptions& options = {});
 
 /// How NaN is written.
@@ -67,7 +67,7 @@ std::string csvText(const std::vector<std::string>& names, const std::vector<std
 void csvPieces(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns, NanAs nan,
                const std::function<void(const std::string&)>& take);
 
-/// The header line: "t_s,p_x_m\n".
+/// Returns the header line: "t_s,p_x_m\n".
 std::string csvHeader(const std::vector<std::string>& names);
 
 /// Appends a text as a cell. It is quoted as in RFC 4180 if needed; terminal control characters are escaped.

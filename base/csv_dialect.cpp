@@ -24,7 +24,7 @@ std::string_view withoutMark(std::string_view line) {
   return trimmedCell(line);
 }
 
-/// Whether a cell holds only digits, signs, points, commas and exponents, or "nan" or "inf".
+/// Returns whether a cell holds only digits, signs, points, commas and exponents, or "nan" or "inf".
 bool looksNumeric(std::string_view cell) {
   if (cell == "nan" || cell == "inf" || cell == "-inf" || cell == "NaN") return true;
   return cell.find_first_of("0123456789") != std::string_view::npos &&
@@ -38,8 +38,8 @@ char separatorOf(std::string_view line) {
   return ' ';
 }
 
-/// The separator of a row of numbers. A comma does not separate next to another separator or inside blank-separated
-/// cells.
+/// Returns the separator of a row of numbers. A comma does not separate next to another separator or inside
+/// blank-separated cells.
 char separatorOfNumbers(std::string_view line) {
   for (char separator : {'\t', ';'})
     if (line.find(separator) != std::string_view::npos) return separator;
@@ -85,7 +85,7 @@ Head headOf(const std::vector<std::string_view>& lines) {
   return head;
 }
 
-/// Whether commas in numbers are decimal commas; throws if they may also mark thousands.
+/// Returns whether commas in numbers are decimal commas. Throws if they may also mark thousands.
 bool hasDecimalCommas(const Head& head, char separator, const std::filesystem::path& file) {
   std::string_view either;
   bool certain = false;
@@ -108,7 +108,7 @@ bool hasDecimalCommas(const Head& head, char separator, const std::filesystem::p
   return !either.empty();
 }
 
-/// Whether the first cells count rows.
+/// Returns whether the first cells count rows.
 bool beginWithRowNumbers(const Head& head, char separator) {
   const std::string first(head.rows.empty() ? "" : splitCells(head.rows.front(), separator).front());
   if (head.rows.size() < 2 || (first != "0" && first != "1")) return false;

@@ -12,16 +12,17 @@ namespace ursula {
 struct CsvDialect {
   char separator = ',';                        ///< ' ' means runs of blanks
   bool decimal_comma = false;                  ///< "0,5" is a half
-  bool comments = false;                       ///< lines that begin with # or % are skipped
+  bool comments = false;                       ///< lines that begin with # or %, and blank ones, are skipped
   int header = 1;                              ///< its 1-based line; 0 if there is none
   std::vector<std::string> header_cells = {};  ///< cells of that line; "1", "2", … if there is none
 
   bool isOwn() const { return separator == ',' && !comments && header == 1; }
-  /// "';' between, decimal commas, the header in line 3, after #"; empty for this program's own form.
+  /// Returns "';' between, decimal commas, lines after # passed over, the header in line 3"; empty for this program's
+  /// own form.
   std::string words() const;
 };
 
-/// A cell without blanks around it.
+/// Returns a cell without blanks around it.
 std::string_view trimmedCell(std::string_view cell);
 
 /// Limits of a file; the columns are also those of a line.
@@ -34,7 +35,7 @@ std::vector<std::string_view> splitCells(std::string_view line, char separator);
 /// Returns the first `most` lines, without line ends (LF or CRLF), byte order mark and blank lines at the end.
 std::vector<std::string_view> splitLines(std::string_view text, std::size_t most = most_csv_lines + 1);
 
-/// Whether a line holds no row: it is blank, or a comment if the dialect has comments.
+/// Returns whether a line holds no row: a comment or a blank line, if the dialect has comments.
 bool isPassedOver(std::string_view line, const CsvDialect& dialect);
 
 /// Guesses from header and first rows how `text` is written. A tab, a semicolon or a comma in the header separates;

@@ -34,7 +34,8 @@ fs::path withoutLinks(const fs::path& folder) {
   return path.has_filename() ? path : path.parent_path();
 }
 
-/// A rename of such a folder would move the mount; its removal would empty the other file system.
+/// Returns whether the folder is a mount point. A rename would move the mount; a removal would empty the other file
+/// system.
 bool isMountPoint(const fs::path& path) {
   struct statx own {};
   struct statx above {};
@@ -74,7 +75,7 @@ void makeLike(const fs::path& folder, const fs::path& model) {
   becomeLike(folder, model);
 }
 
-/// False if both are the same file, linked or copied.
+/// Returns whether `a` was written after `b`; false if both are the same file, linked or copied.
 bool isNewer(const fs::path& a, const fs::path& b) {
   std::error_code ignored;
   return fs::last_write_time(a, ignored) > fs::last_write_time(b, ignored);
@@ -127,7 +128,8 @@ OutputFolder::~OutputFolder() {
   if (lock_ >= 0) ::close(lock_);
 }
 
-/// Refuses before anything is computed. A process whose working folder is swapped would be left in a removed one.
+/// Refuses an impossible swap before anything is computed. A process whose working folder is swapped would be left in a
+/// removed one.
 void OutputFolder::requireSwappable() const {
   std::error_code error;
   const fs::path here = fs::current_path(error), below = shown_ / "results";
@@ -169,8 +171,8 @@ void OutputFolder::lock() {
   static_cast<void>(::ftruncate(lock_, 0) == 0 && writeAll(lock_, process));  // only for the message above
 }
 
-/// The previous holder removes the file and its new folders while it holds the lock. So the opened file may have lost
-/// its name.
+/// Tries once to get the lock. The previous holder removes the file and its new folders while it holds the lock, so the
+/// opened file may have lost its name.
 bool OutputFolder::tryToLock() {
   constexpr mode_t as_the_user_says = 0666;
   fresh_.makeFolder(above_);
@@ -267,7 +269,8 @@ void OutputFolder::commit() {
   held_above_.clear();
 }
 
-/// Marks the folder as complete by its name first, so an interrupted swap leaves two complete folders.
+/// Swaps the folders. The new folder is first marked as complete by its name, so an interrupted swap leaves two
+/// complete folders.
 void OutputFolder::swap() {
   const HeldFolder alone(folder_, HeldFolder::Kind::alone);
   Paths ours = olderIn(folder_);

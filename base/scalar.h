@@ -33,8 +33,8 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double degree = pi / 180;  ///< in rad
 constexpr double degrees_per_radian = 180 / pi;
 
-/// The angle between sides a and b of a triangle, opposite to c. It is exact to rounding even for needles (Kahan,
-/// Miscalculating Area and Angles of a Needle-like Triangle, 2014, sect. 2).
+/// Returns the angle between sides a and b of a triangle, opposite to c. It is exact to rounding even for needles
+/// (Kahan, Miscalculating Area and Angles of a Needle-like Triangle, 2014, sect. 2).
 inline double angleOpposite(double c, double a, double b) {
   if (a < b) std::swap(a, b);
   const double slack = b >= c ? c - (a - b) : b - (a - c);
@@ -42,7 +42,7 @@ inline double angleOpposite(double c, double a, double b) {
   return 2 * std::atan2(std::sqrt(std::max(top, 0.0)), std::sqrt(std::max(bottom, 0.0)));
 }
 
-/// The larger of two; NaN wins.
+/// Returns the larger of two; NaN wins.
 inline double larger(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
 }  // namespace ursula

@@ -37,15 +37,16 @@ void requireNotNegative(const std::string& place, double value) {
   if (!(value >= 0)) throw InvalidParameter(place, fmt::format("{}", value), ">= 0");
 }
 
-/// Whether the tensor is that of a thin rod: zero about the principal axis `line` and positive about those across it.
+/// Returns whether the tensor is that of a thin rod: zero about the principal axis `line`, positive about those across
+/// it.
 bool isRod(const Matrix3d& I, int line) {
   const int x = (line + 1) % 3, y = (line + 2) % 3;
   return I.col(line).isZero(0) && I(x, x) > 0 && I(y, y) > 0;
 }
 
-/// A tensor has a mass distribution exactly if its principal moments are positive and none exceeds the sum of the other
-/// two (Wittenburg, Dynamics of Multibody Systems, 2nd ed., sect. 3.1); equality means a lamina. A rod along the axis
-/// `line`, if given, may have one zero moment.
+/// Requires that some body can have the tensor: its principal moments are positive and none exceeds the sum of the
+/// other two (Wittenburg, Dynamics of Multibody Systems, 2nd ed., sect. 3.1); equality means a lamina. A rod along the
+/// axis `line`, if given, may have one zero moment.
 void requireInertia(const std::string& place, const Matrix3d& inertia, int line = -1) {
   if (!inertia.allFinite()) throw InvalidParameter(place, "a non-finite entry", "finite numbers");
   if (!(inertia - inertia.transpose()).isZero(0)) throw InvalidParameter(place, "not symmetric", "a symmetric tensor");

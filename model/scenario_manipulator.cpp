@@ -34,7 +34,7 @@ std::string coordinatesOf(LegKind kind) {
   return fmt::format("'{}', '{}' or '{}'", nameOf(has[0]), nameOf(has[1]), nameOf(has[2]));
 }
 
-/// "'phi'", or several joined by "or".
+/// Returns "'phi'", or several coordinates joined by "or".
 std::string drivenBy(const Leg& leg) {
   std::vector<std::string> names;
   for (const Coordinate coordinate : rowOf(leg.kind).coordinates)

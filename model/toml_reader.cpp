@@ -46,7 +46,7 @@ std::string quotedList(const std::vector<std::string>& words) {
   return list;
 }
 
-/// ", did you mean 142.0?" where a line ends with 142,0.
+/// Returns ", did you mean 142.0?" where a line ends with 142,0.
 std::string decimalPoint(const std::string& text, std::size_t line) {
   std::istringstream lines(text);
   std::string at;
@@ -57,7 +57,7 @@ std::string decimalPoint(const std::string& text, std::size_t line) {
   return fmt::format(", did you mean {}.{}?", found.str(1), found.str(2));
 }
 
-/// The parser's message without its own "Error", and with what was expected.
+/// Returns the parser's message without its own "Error", and with what was expected.
 std::string syntaxError(const std::string& message) {
   static const std::string prefix = "Error while parsing ";
   const std::string said = message.rfind(prefix, 0) == 0 ? "while parsing " + message.substr(prefix.size()) : message;

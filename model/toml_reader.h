@@ -13,13 +13,13 @@
 
 namespace ursula {
 
-/// `file:line:column` of a node.
+/// Returns `file:line:column` of a node.
 std::string placeAt(const std::string& file, const toml::source_position& position);
 
-/// The error `file:line:column: error: message` at a node's place.
+/// Returns the error `file:line:column: error: message` at a node's place.
 PlacedError errorAt(const std::string& file, const toml::source_position& position, const std::string& message);
 
-/// The same for a text that was refused.
+/// Returns the same for a text that was refused.
 PlacedError errorAt(const std::string& file, const TextRefusal& refusal);
 
 /// Parses a document; `file` names it in errors. Throws ScenarioError for invalid TOML and if requireBounded refuses

@@ -23,7 +23,7 @@ const BodyMotion<double>& bodyOf(const Bodies& bodies, int body) {
 
 Vector3d omegaOf(const BodyMotion<double>& body) { return body.twist.head<3>(); }
 
-/// The velocity of the body-fixed point that is now at `point`.
+/// Returns the velocity of the body-fixed point that is now at `point`.
 Vector3d velocity(const BodyMotion<double>& body, const Vector3d& point) {
   return body.twist.tail<3>() + omegaOf(body).cross(point - body.c);
 }
@@ -32,7 +32,7 @@ Vector3d centripetal(const BodyMotion<double>& body, const Vector3d& point) {
   return omegaOf(body).cross(omegaOf(body).cross(point - body.c));
 }
 
-/// Columns of the velocity of a body's point, v = ċ + ω × arm.
+/// Returns the rows that give the velocity of a body's point from its twist: v = ċ + ω × arm.
 Eigen::Matrix<double, 3, 6> pointRows(const BodyMotion<double>& body, const Vector3d& point) {
   const Vector3d arm = point - body.c;
   Eigen::Matrix<double, 3, 6> rows;
@@ -68,7 +68,7 @@ void addJoint(const Bodies& bodies, const Joint& joint, int row, Eigen::MatrixXd
   for (int k = 0; k < 2; ++k) addNormal(joint, joint.across.col(k), row + 3 + k, G);
 }
 
-/// The joint's part of γ: with rows n, n · ṫ = −ṅ · t.
+/// Returns the joint's part of γ: with rows n, n · ṫ = −ṅ · t.
 Eigen::VectorXd gammaOf(const Bodies& bodies, const Joint& joint) {
   const BodyMotion<double>&parent = bodyOf(bodies, joint.parent), &child = bodyOf(bodies, joint.child);
   const Vector3d omega = omegaOf(parent), relative = omegaOf(child) - omega;
@@ -189,7 +189,7 @@ void MaximalLoop::solveMotion(const Motion<double>& motion, bool with_gamma) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b].twist_rate = t_rate.segment<6>(6 * static_cast<int>(b));
 }
 
-/// Friction on the leg's three coordinates.
+/// Returns the friction on the leg's three coordinates.
 Vector3d MaximalLoop::frictionOf(int index) const {
   const Leg& leg = manipulator_.leg(index);
   Vector3d out;
@@ -224,7 +224,7 @@ void MaximalLoop::subtractFriction(int index, VectorX& w) const {
   w -= given;
 }
 
-/// Inertia minus gravity, friction and load, which constraints and motors must balance.
+/// Returns inertia minus gravity, friction and load, which constraints and motors must balance.
 MaximalLoop::VectorX MaximalLoop::unbalanced(const Motion<double>& motion) const {
   VectorX w(coordinates());
   const ManipulatorParameters& machine = manipulator_.parameters();

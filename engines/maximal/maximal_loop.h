@@ -53,7 +53,7 @@ class MaximalLoop : public Engine {
 
   Vector6d inverseDynamics(const Motion<double>& motion) override;
 
-  /// Pose, twist and twist rate of the bodies in the last motion.
+  /// Returns pose, twist and twist rate of the bodies in the last motion.
   BodyMotions<double> bodies() const;
 
  private:

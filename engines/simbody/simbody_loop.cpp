@@ -158,8 +158,8 @@ JointMotion SimbodyLoop::joints() const {
   return out;
 }
 
-// How a user with the joints' motion calls Simbody: the fewest calls that suffice. Forces are summed here, because
-// its own force subsystem would realize all stages up to Dynamics.
+// The functions below call Simbody as a user does who has the joints' motion: with the fewest calls that suffice.
+// Forces are summed here, because Simbody's own force subsystem would realize all stages up to Dynamics.
 
 void SimbodyLoop::coordinates(const Motion<double>& motion, const JointMotion& joint_motion,
                               TreeCoordinates& out) const {

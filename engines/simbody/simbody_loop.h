@@ -67,13 +67,13 @@ class SimbodyLoop {
   double gapAcceleration() const;
   Energy energy() const;
 
-  /// Pose, twist and twist rate of the 13 bodies' mass centres at the last placed or computed accelerations.
+  /// Returns pose, twist and twist rate of all bodies' mass centres at the last placed or computed accelerations.
   BodyMotions<double> bodies() const;
 
   // --- dynamics ---
 
-  /// Torques for the last placed accelerations, N·m: Simbody's residual forces projected on the actuated coordinates
-  /// with its constraint Jacobian.
+  /// Returns the torques for the last placed accelerations, N·m: Simbody's residual forces projected on the actuated
+  /// coordinates with its constraint Jacobian.
   Vector6d inverseDynamics() const;
 
   /// Computes the accelerations of platform and joints under these torques. With six balls it eliminates the legs'
@@ -111,14 +111,14 @@ class SimbodyLoop {
   /// Power at the last differentiated state, under its torques.
   Power power() const;
 
-  /// Counters of Simbody's own RungeKuttaMerson from the last placed state under a torque history.
+  /// What an integration by Simbody's own RungeKuttaMerson took.
   struct Counters {
     long derivative_evaluations = 0;
     int steps = 0;
     bool gave_up = false;
   };
-  /// Calls `observe(t)` with the loop in that state, at 0 and at each of `instants` (increasing, > 0). Constraint
-  /// projection is Simbody's default.
+  /// Integrates from the last placed state under a torque history. Calls `observe(t)` with the loop in that state, at 0
+  /// and at each of `instants` (increasing, > 0). Constraint projection is Simbody's default.
   Counters integrateRungeKuttaMerson(double accuracy, const TorqueHistory& torques, const std::vector<double>& instants,
                                      const std::function<void(double)>& observe);
 

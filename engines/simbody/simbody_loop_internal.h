@@ -74,15 +74,15 @@ struct Mechanism {
     int coordinate;
   };
   Place place(int joint, int leg) const;
-  /// Rate of one of a leg's three coordinates.
+  /// Returns the rate of one of a leg's three coordinates.
   double rate(const SimTK::State& state, int joint, int leg) const;
 };
 
-/// −c tanh(q̇ / speed), the smoothed Coulomb friction force on one of a leg's three joints.
+/// Returns −c tanh(q̇ / speed), the smoothed Coulomb friction force on one of a leg's three joints.
 double coulombForce(const Leg& leg, int joint, double rate);
 
-/// The joint coordinates of a leg for B at `d` from A, by vector geometry; nullopt if it cannot reach. `frame` is
-/// fixedFrame of its axis.
+/// Returns the joint coordinates of a leg for B at `d` from A, by vector geometry; nullopt if it cannot reach. `frame`
+/// is fixedFrame of its axis.
 std::optional<std::array<double, 3>> legGeometry(const Leg& leg, const Matrix3d& frame, const Vector3d& d);
 
 /// Returns the velocity of B per unit rates of the leg's joints; axes are Simbody's. `first` and `second` are the leg's
@@ -93,7 +93,7 @@ Matrix3d legJacobian(const LegChain& chain, const SimTK::State& state, const Sim
 /// Simbody undoes the shift to the body's origin again. Throws std::domain_error if rounding invalidates the result.
 SimTK::MassProperties massProperties(double mass, const Vector3d& center, const Matrix3d& about_center);
 
-/// [moment about P; force] of the load in B for the platform's pose in `state`, realized to Position.
+/// Returns [moment about P; force] of the load in B for the platform's pose in `state`, realized to Position.
 SimTK::SpatialVec loadOnPlatform(const Load& load, const Mechanism& mechanism, const SimTK::State& state);
 
 /// Kept between calls to avoid allocation.
@@ -123,18 +123,19 @@ struct SimbodyLoop::Impl {
   int legCount() const { return parameters.legCount(); }
   /// The state that derivative() realizes.
   const SimTK::State& differentiated() const { return topology == Topology::six_balls ? open : state; }
-  /// Index in u of a leg's joint.
+  /// Returns the index in u of a leg's joint.
   int indexOf(int joint, int leg) const;
   int indexOf(const Mechanism::Rotor& rotor) const { return rotor.wheel.getFirstUIndex(state); }
   void setLeg(int leg, const std::array<double, 3>& q);
-  /// Geometry of one leg for the platform's pose. Throws std::domain_error if the leg cannot reach.
+  /// Returns the joint coordinates of one leg for the platform's pose. Throws std::domain_error if the leg cannot
+  /// reach.
   std::array<double, 3> legGeometry(int leg, const Motion<double>& motion) const;
   void setPlatformPose(const Motion<double>& motion);
   void realize(SimTK::Stage stage) const { system.realize(state, stage); }
-  /// [G; J]: constraint Jacobian over the platform's frame Jacobian, nu × nu.
+  /// Returns [G; J]: the constraint Jacobian over the platform's frame Jacobian, nu × nu.
   Eigen::MatrixXd constraintsAndPlatform() const;
   Eigen::MatrixXd constraintJacobian() const;
-  /// Adds the forces other than the motors' to the scratch, from the state's velocities.
+  /// Replaces the forces in the scratch by those other than the motors', from the state's velocities.
   void applyForces();
   /// The Jacobian of the last placed state.
   std::optional<Eigen::MatrixXd> placed_jacobian;
@@ -143,7 +144,7 @@ struct SimbodyLoop::Impl {
   void eliminate(const Vector6d& torques);
   /// Sets the velocities and accelerations of all coordinates from the platform's.
   void setRates(const Motion<double>& motion);
-  /// The same if the platform is free instead of on leg 1.
+  /// Sets only the platform's own, if the platform is free instead of on leg 1.
   void setFreePlatform(const Motion<double>& motion);
 
  private:

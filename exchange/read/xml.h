@@ -49,7 +49,8 @@ double numberOf(const Element& at, std::string_view text, const std::string& wha
 Vector3d vectorOf(const Element& at, std::string_view text, const std::string& what);
 /// Reads "true", "1", "false" or "0". Throws for other words.
 bool truthOf(const Element& at, const std::string& text, const std::string& what);
-/// Returns half a unit of the last written digit, the largest over the numbers: "0.25 1.5" gives 0.05.
+/// Returns half a unit of the last written digit, the largest over the numbers: "0.25 1.5" gives 0.05. Whole numbers do
+/// not count.
 double halfLastDigit(std::string_view text);
 
 /// Visits child elements of a name, or all of them if `name` is null.

@@ -29,7 +29,7 @@ struct MultiplicationMatrix {
   double pivot = 0;  ///< smallest pivot ratio of the elimination; 0 if a root lies in the plane at infinity
 };
 
-/// 0 ≤ index < chart_count. Does not allocate; M is unusable if pivot is 0 or NaN.
+/// Returns it for a chart, 0 ≤ index < chart_count. Does not allocate; M is unusable if pivot is 0 or NaN.
 MultiplicationMatrix multiplicationMatrix(const ThreeQuadrics& quadrics, int index);
 
 // All common roots of three quadrics, polished and counted. Internal to nocsolver/direct_kinematics*.
@@ -48,7 +48,7 @@ struct Roots {
   double pivot = 0;  ///< largest pivot ratio of the charts tried
 };
 
-/// Largest |qᵀSₖq| at unit length.
+/// Returns the largest |qᵀSₖq| at unit length.
 template <class Scalar>
 double residual(const ThreeQuadrics& quadrics, const Eigen::Matrix<Scalar, 4, 1>& q) {
   double worst = 0;

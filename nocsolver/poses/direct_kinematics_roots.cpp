@@ -40,7 +40,8 @@ Q4<Scalar> newtonStep(const ThreeQuadrics& quadrics, const Q4<Scalar>& q) {
   return -J.partialPivLu().solve(f);
 }
 
-/// Newton's method at unit length until the residual no longer falls; keeps the best q. Returns whether it is a root.
+/// Applies Newton's method at unit length until the residual no longer falls; keeps the best q. Returns whether it is a
+/// root.
 template <class Scalar>
 bool polish(const ThreeQuadrics& quadrics, double rounding, Q4<Scalar>& q) {
   double best = residual<Scalar>(quadrics, q);
@@ -66,7 +67,7 @@ ComplexQ turnedReal(const ComplexQ& q) {
   return q * std::polar(1.0, -std::arg(square) / 2);
 }
 
-/// 1 − |pᴴq|² without cancellation, as a distance.
+/// Returns the distance √(1 − |pᴴq|²) of unit vectors without cancellation.
 double distance(const ComplexQ& p, const ComplexQ& q) { return (q - p * p.dot(q)).norm(); }
 
 /// The quadrics along the direction n in which they change least: uᵀf(q + t n) = f + σ t + κ t².

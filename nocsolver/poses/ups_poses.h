@@ -32,17 +32,17 @@ struct UpsPoses {
 UpsPoses upsPoses(const std::array<Vector3d, 6>& base_points, const std::array<Vector3d, 6>& platform_points,
                   const Vector6d& lengths);
 
-/// Whether each of six legs has one motor that, while it holds, keeps the leg's platform point on a sphere: d of UPS
-/// (about the base point, of radius d), phi of RUS (about the crank's end), d of PUS (about the carriage; both of the
-/// rod's length). Legs may be of different kinds; upsPoses() applies to these machines.
+/// Returns whether each of six legs has one motor that, while it holds, keeps the leg's platform point on a sphere: d
+/// of UPS (about the base point, of radius d), phi of RUS (about the crank's end), d of PUS (about the carriage; both
+/// of the rod's length). Legs may be of different kinds; upsPoses() applies to these machines.
 bool tipsAreOnSpheres(const Manipulator& machine);
-/// Every pose of such a machine for its driven coordinates, rad or m, in leg order. Throws as above.
+/// Returns every pose of such a machine for its driven coordinates, rad or m, in leg order. Throws as above.
 UpsPoses upsPoses(const Manipulator& machine, const Vector6d& driven);
-/// Whether inverse kinematics at this pose returns leg i's driven coordinate; i is 0-based. Otherwise the leg is beyond
-/// its stroke (UPS), or bends the other way (RUS, PUS).
+/// Returns whether inverse kinematics at this pose gives leg i's driven coordinate; i is 0-based. Otherwise the leg is
+/// beyond its stroke (UPS), or bends the other way (RUS, PUS).
 bool isOnItsBranch(const Leg& leg, double driven, const UpsPose& pose);
-/// The first leg, 0-based, of such a machine that is telescopic and whose length exceeds its stroke; −1 if there is
-/// none.
+/// Returns the first leg, 0-based, of such a machine that is telescopic and whose length exceeds its stroke; −1 if
+/// there is none.
 int beyondStroke(const Manipulator& machine, const Vector6d& driven);
 
 }  // namespace ursula

@@ -25,7 +25,7 @@ const double little_h = std::pow(eps, 1.0 / 4);
 /// Singular values below this fraction of the largest belong to a double solution.
 const double flat = std::sqrt(eps);
 
-/// The distance of unit vectors, up to a factor.
+/// Returns the distance of unit vectors, up to a factor of modulus one.
 double distance(const ComplexCoordinates& x, const ComplexCoordinates& y) { return (y - x * x.dot(y)).norm(); }
 
 ComplexPose complexOf(const RealPose& pose) { return {pose.q.cast<Complex>(), pose.p.cast<Complex>()}; }
@@ -52,7 +52,7 @@ Svd<Scalar> decomposed(const Equations<Scalar>& at) {
   return Svd<Scalar>(at.J, Eigen::ComputeFullU | Eigen::ComputeFullV);
 }
 
-/// Newton's step in the `rank` directions in which the equations change most.
+/// Returns Newton's step in the `rank` directions in which the equations change most.
 template <class Scalar>
 Vec6<Scalar> leastStep(const Equations<Scalar>& at, const Svd<Scalar>& svd, int rank) {
   Vec6<Scalar> step = Vec6<Scalar>::Zero();
@@ -81,8 +81,8 @@ bool isMultiple(const Legs& legs, const Placed<Scalar>& pose) {
   return sigma * sigma <= 4 * std::sqrt(6.0) * at.curvature * at.rounding;
 }
 
-/// Whether the equations' rounding moves the pose by less than 1/64 of its coordinates. Near infinity every distant
-/// pose solves them.
+/// Returns whether the equations' rounding moves the pose by less than 1/64 of its coordinates. Near infinity every
+/// distant pose solves them.
 bool isDetermined(const Legs& legs, const ComplexPose& pose) {
   Equations<Complex> at = equations<Complex>(legs, pose);
   at.J.rightCols<3>() *= 1 + pose.p.norm();

@@ -77,15 +77,16 @@ struct Roots {
   bool complete() const { return all() == solution_count; }
 };
 
-/// At this ratio of pivots, rounding in the ring leaves a quarter of the digits. Double roots then spread over the
-/// radius of one cluster, as for the quadrics of DirectKinematics.
+/// Returns the ratio of pivots at which rounding in the ring leaves a quarter of the digits. Double roots then spread
+/// over the radius of one cluster, as for the quadrics of DirectKinematics.
 double smallestPivot();
 
-/// Uses the ring. Tries charts until 40 solutions are counted, or until they are clearly infinitely many.
+/// Finds the roots by the ring. It tries charts until 40 solutions are counted, or until they are clearly infinitely
+/// many.
 Roots findRoots(const Legs& legs);
 
-/// Follows paths from the solutions of a nearby machine. It serves machines with infinitely many solutions at infinity,
-/// and shows whether all but finitely many are there.
+/// Finds the roots along paths from the solutions of a nearby machine. It serves machines with infinitely many
+/// solutions at infinity, and shows whether all but finitely many are there.
 Roots trackRoots(const Legs& legs);
 
 // Newton's method on |p + Qb − a|² = d², over the real or the complex numbers. Internal to nocsolver/ups_poses*.
@@ -97,7 +98,7 @@ using Vec6 = Eigen::Matrix<Scalar, 6, 1>;
 template <class Scalar>
 using Mat3 = Eigen::Matrix<Scalar, 3, 3>;
 
-/// xᵀy and x × y without conjugation; Eigen's own functions conjugate.
+/// product() is xᵀy and crossed() is x × y, both without conjugation. Eigen's own functions conjugate.
 template <class X, class Y>
 typename X::Scalar product(const X& x, const Y& y) {
   return (x.transpose() * y).value();
@@ -107,7 +108,7 @@ Vec3<Scalar> crossed(const Vec3<Scalar>& x, const Vec3<Scalar>& y) {
   return {x(1) * y(2) - x(2) * y(1), x(2) * y(0) - x(0) * y(2), x(0) * y(1) - x(1) * y(0)};
 }
 
-/// Q of a quaternion with qᵀq = 1.
+/// Returns Q of a quaternion with qᵀq = 1.
 template <class Scalar>
 Mat3<Scalar> rotation(const Eigen::Matrix<Scalar, 4, 1>& q) {
   const Scalar w = q(0), x = q(1), y = q(2), z = q(3), two = 2;
@@ -147,7 +148,7 @@ Equations<Scalar> equations(const LegsOver<LegScalar>& legs, const Placed<Scalar
   return out;
 }
 
-/// Rotates, then translates.
+/// Returns the pose after a step, which rotates it and then translates it.
 template <class Scalar>
 Placed<Scalar> displaced(const Placed<Scalar>& from, const Vec6<Scalar>& step) {
   const Vec3<Scalar> half = step.template head<3>() / 2.0, v = from.q.template tail<3>();
@@ -159,7 +160,7 @@ Placed<Scalar> displaced(const Placed<Scalar>& from, const Vec6<Scalar>& step) {
   return to;
 }
 
-/// Newton's method until f no longer falls; keeps the best pose. Returns whether it is a solution.
+/// Applies Newton's method until f no longer falls, and keeps the best pose. Returns whether it is a solution.
 template <class Scalar>
 bool polish(const Legs& legs, Placed<Scalar>& pose) {
   constexpr int steps = 12, patience = 3;
@@ -189,16 +190,16 @@ bool polish(const Legs& legs, Placed<Scalar>& pose) {
 using ComplexPose = Placed<std::complex<double>>;
 using ComplexCoordinates = Eigen::Matrix<std::complex<double>, coordinate_count, 1>;
 
-/// The pose's coordinates, of unit length.
+/// Returns the pose's coordinates, of unit length.
 ComplexCoordinates coordinates(const ComplexPose& pose);
 
-/// The pose with these coordinates, approximately.
+/// Returns the pose with these coordinates, approximately.
 ComplexPose poseAt(const ComplexCoordinates& x);
 
-/// Newton's method with the least step, for a pose that may be singular; true if it ends in a solution.
+/// Applies Newton's method with the least step, for a pose that may be singular. Returns whether it ends in a solution.
 bool polishPose(const Legs& legs, ComplexPose& pose);
 
-/// Whether the solution `pose` lies on a curve of solutions: a long step along it leads to another.
+/// Returns whether the solution `pose` lies on a curve of solutions: a long step along it leads to another.
 bool isFree(const Legs& legs, const ComplexPose& pose);
 
 /// Collects solutions as they are found.

@@ -80,13 +80,13 @@ std::vector<Quadric> motionQuadrics() {
   return all;
 }
 
-/// Index of the monomial of degree two; a and b in any order.
+/// Returns the index of the monomial of degree two; a and b may be in any order.
 int pair(int a, int b) {
   if (a > b) std::swap(a, b);
   return a * variable_count - a * (a - 1) / 2 + b - a;
 }
 
-/// A fixed generic rotation for each chart.
+/// Returns a fixed generic rotation for each chart.
 Eigen::Matrix<double, section_count, section_count> chart(int index) {
   std::uint64_t state = 0x9e3779b97f4a7c15u * static_cast<std::uint64_t>(index + 1);
   Eigen::Matrix<double, section_count, section_count> A;
@@ -176,7 +176,7 @@ void Ring::addSecond(const Section& map) {
           second.row(pair(a, b)) / (a == b ? 1 : std::sqrt(2.0));
 }
 
-/// yᵢ(yⱼ f) − yⱼ(yᵢ f) for all i < j and basis elements f in [below, from). The columns are coefficients of the
+/// Returns yᵢ(yⱼ f) − yⱼ(yᵢ f) for all j < i and basis elements f in [below, from). The columns are coefficients of the
 /// products of basis elements in [from, to) with y₁…y₁₀, then of the basis.
 Eigen::MatrixXd Ring::relations(int below, int from, int to) const {
   const int degree = to - from, lower = from - below, products = variable_count * degree;

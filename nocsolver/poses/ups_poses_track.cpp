@@ -40,10 +40,11 @@ using Complex = std::complex<double>;
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 constexpr int throw_count = 3, step_limit = 4000;
 const double last_t = std::pow(2.0, -36), late_t = std::pow(2.0, -10), bend = 0.7;
-/// A path whose |h| of unit coordinates ends below this ends at infinity; a real pose has a larger |h|.
+/// A path whose |h| of unit coordinates ends below little_h ends at infinity; a real pose has a larger |h|. A path that
+/// ends below hidden_h does so too if it ends at no pose.
 const double little_h = std::pow(eps, 1.0 / 4), hidden_h = std::pow(eps, 3.0 / 16);
 
-/// The values of a, b, d at both ends.
+/// The way from a perturbed machine, at s = 1, to the given one, at s = 0.
 struct Way {
   Legs end, change;
 
@@ -98,12 +99,12 @@ Way randomWay(const Legs& legs, int index) {
 
 Complex bent(double t) { return {t, bend * t * (1 - t)}; }
 
-/// The size of a step from a pose; rotations are relative already.
+/// Returns the size of a step from a pose; rotations are relative already.
 double size(const Vec6<Complex>& step, const ComplexPose& pose) {
   return step.head<3>().norm() + step.tail<3>().norm() / (1 + pose.p.norm());
 }
 
-/// Newton's method at s; nullopt unless the start is close to the solution.
+/// Applies Newton's method at s. Returns nullopt unless the start is close to the solution.
 std::optional<ComplexPose> corrected(const LegsOver<Complex>& legs, ComplexPose pose, double closeness) {
   double previous = closeness;
   for (int i = 0; i < 4; ++i) {
@@ -141,6 +142,7 @@ std::optional<ComplexPose> follow(const Way& way, ComplexPose pose, double close
   return pose;
 }
 
+/// Adds the end of a path to the collector: a pose, or a solution at infinity. A path that ends at neither is lost.
 void finish(const Legs& legs, const ComplexPose& end, RootCollector& collector, bool& free) {
   const double h = std::abs(coordinates(end)(at_h));
   ComplexPose pose = end;

@@ -9,13 +9,13 @@ namespace ursula::audit {
 
 using Torques = std::function<Vector6d(const Motion<double>&)>;
 
-/// Torques with `formula_errors`, by (37), or by (36) for formulas that only Ṫ needs.
+/// Returns the torques with `formula_errors`, by (37), or by (36) for formulas that only Ṫ needs.
 Torques torquesWith(const Scenario& scenario, const WithFormulaErrors& formula_errors, bool only_in_36);
 
 /// Compares torques and replay with those of the correct formulas, at `samples` instants.
 AuditEffect effectOf(const Scenario& scenario, const Torques& torques, int samples, double replay_tolerance);
 
-/// The largest torque of the motion, N·m.
+/// Returns the largest torque of the motion, N·m.
 double largestTorque(const Scenario& scenario, int samples);
 
 }  // namespace ursula::audit

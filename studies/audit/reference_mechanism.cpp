@@ -7,7 +7,8 @@
 namespace ursula::audit {
 namespace {
 
-/// The frame of (2) for a tilted axis: x̂ = (u × e_z)/‖·‖, ŷ = u, ẑ = x̂ × u.
+/// Returns the frame of (2) for a tilted axis: x̂ = (u × e_z)/‖·‖, ŷ = u, ẑ = x̂ × u. An axis along e_z takes e_y
+/// instead.
 M fixedFrame(const V& u) {
   const V e_z = V::UnitZ();
   const bool along_e_z = u.cross(e_z).squaredNorm() < S(1e-20);
@@ -24,14 +25,14 @@ V unitAxis(const Leg& leg) {
   return axis / sqrt(axis.squaredNorm());
 }
 
-/// [x, axis × x, axis] of (40).
+/// Returns [x, axis × x, axis] of (40).
 M linkFrame(const V& x, const V& axis) {
   M frame;
   frame << x, axis.cross(x), axis;
   return frame;
 }
 
-/// Angular velocity and acceleration of a frame.
+/// spin() returns the angular velocity of a frame, spinRate() its angular acceleration.
 V spin(const M& R, const M& R_dot) { return vect(R_dot * R.transpose()); }
 V spinRate(const M& R, const M& R_dot, const M& R_ddot) {
   return vect(R_ddot * R.transpose() + R_dot * R_dot.transpose());
@@ -61,7 +62,7 @@ ReferenceBody linkBody(const S& mass, const M& I, const M& R, const M& R_dot, co
   return body;
 }
 
-/// Friction forces on φ, ψ, θ of a leg.
+/// Returns the friction forces on φ, ψ, θ of a leg.
 V frictionForces(const Leg& leg, const LegPose& rate) {
   const double viscous[3] = {leg.friction.phi, leg.friction.psi, leg.friction.theta};
   const double coulomb[3] = {leg.coulomb.phi, leg.coulomb.psi, leg.coulomb.theta};

@@ -17,11 +17,11 @@ using S = Real50;
 using V = Vector3<S>;
 using M = Matrix3<S>;
 
-/// The cross-product matrix of v, and its inverse vect(·).
+/// crossMatrix() returns the cross-product matrix of v; vect() is its inverse.
 M crossMatrix(const V& v);
 V vect(const M& matrix);
 
-/// Position-level quantities of one leg in one vector, which can be differenced at once.
+/// The position-level quantities of one leg in one vector, which can be differenced at once.
 class LegPose {
  public:
   using Vector = Eigen::Matrix<S, 56, 1>;
@@ -121,8 +121,8 @@ class ReferenceMechanism {
   const Trajectory& trajectory_;
 };
 
-/// First and second derivative at 0 of a vector function by central differences at ±h, ±h/2, ±h/4, ±h/8, extrapolated
-/// to eighth order. The error is about h⁸/1e9, plus rounding of 1e-50/h and 1e-48/h².
+/// The value and the first two derivatives at 0 of a vector function, by central differences at ±h, ±h/2, ±h/4, ±h/8,
+/// extrapolated to eighth order. The error is about h⁸/1e9, plus rounding of 1e-50/h and 1e-48/h².
 template <class Vector>
 struct Derivatives {
   Vector value, first, second;

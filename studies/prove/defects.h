@@ -33,7 +33,7 @@ struct Defect {
 /// machine lacks (a knee, a sliding coordinate) have no defect; some defects of zero values change nothing.
 std::vector<Defect> allDefects(const Manipulator& machine);
 
-/// The solver with one wrong parameter.
+/// Returns the solver with one wrong parameter.
 Subject disturbedSubject(const Scenario& scenario, const Parameter& parameter, double relative);
 
 }  // namespace ursula
@@ -49,13 +49,14 @@ using ChangeTorques = std::function<Vector6d(const Vector6d& right, const Motion
 
 Manipulator changedMachine(const Manipulator& machine, const ChangeMachine& change);
 
-/// The NOC with a fault in its formulas, in its input or in a leg.
+/// Returns the NOC with a fault in its formulas, in its input or in a leg.
 Defect wrongFormula(const std::string& name, const char* group, const WithFormulaErrors& fault);
 
-/// The same mechanism without a defect. It must pass; otherwise the mechanism itself triggers the checks.
+/// Returns the same mechanism as a control, without a defect. It must pass; otherwise the mechanism itself triggers the
+/// checks.
 Defect control(Defect without_defect);
 
-/// The solver of another machine.
+/// Gives the solver another machine.
 Defect wrongMachine(const std::string& name, const std::string& group, const ChangeMachine& change);
 
 /// Gives the solver another motion than the commanded one.
@@ -65,10 +66,11 @@ Defect wrongMotion(const std::string& name, const ChangeMotion& change);
 Defect wrongTorques(const std::string& name, const std::string& group,
                     const std::function<ChangeTorques(const Scenario&)>& change);
 
-/// Torques for a force against each joint, by power balance with the joints' rates for a unit rate of each motor.
+/// Returns the torques for a force against each joint, by power balance with the joints' rates for a unit rate of each
+/// motor.
 Vector6d onActuators(const Solver<double>& solver, const Motion<double>& motion, const JointVariables<double>& forces);
 
-/// Torques for a wrench on the platform, [moment about P; force].
+/// Returns the torques for a wrench on the platform, [moment about P; force].
 Vector6d onActuators(const Solver<double>& solver, const Motion<double>& motion, const Vector6d& wrench);
 
 /// The two ends of a pulse: at `share` of the motion and a 3000th of it later.
@@ -80,18 +82,18 @@ struct Pulse {
 
 void append(std::vector<Defect>& to, std::vector<Defect> more);
 
-/// The index of leg `number`, 1-based; with fewer legs it counts on from the first.
+/// Returns the 0-based index of leg `number`, which is 1-based. With fewer legs it counts on from the first.
 inline std::size_t legOf(const Manipulator& machine, int number) {
   return static_cast<std::size_t>((number - 1) % machine.legCount());
 }
 /// Returns another leg than legOf(machine, number).
 std::size_t otherLeg(const Manipulator& machine, int number, std::size_t than);
 
-/// The coordinates of a leg, from its base.
+/// Returns the coordinates of a leg, from its base.
 inline const std::array<Coordinate, 3>& coordinatesOf(const Manipulator& machine, std::size_t leg) {
   return rowOf(machine.parameters().legs[leg].kind).coordinates;
 }
-/// The kinds of the machine's legs, each once.
+/// Returns the kinds of the machine's legs, each once.
 std::vector<LegKind> kindsOf(const Manipulator& machine);
 
 // The groups of defects. Each is for any machine unless its comment says otherwise.

@@ -1,5 +1,5 @@
-// Defects in the experiments themselves: an engine, reactions, an integrator, the energy balance. Numbers are in
-// natural units, with lengths of the machine's size and masses of the machine's.
+// This file has defects in the experiments themselves: an engine, reactions, an integrator, the energy balance. Their
+// numbers are in natural units, with lengths of the machine's size and masses of the machine's.
 
 #include <fmt/format.h>
 
@@ -11,8 +11,9 @@
 namespace ursula {
 namespace {
 
-/// Indices in SimbodyLoop's state x = [q, u], to which the replay adds the work. It has three coordinates per leg, the
-/// platform's quaternion and position; their rates, its angular velocity and velocity.
+/// Gives the indices in SimbodyLoop's state x = [q, u], to which the replay adds the work. The state has three
+/// coordinates per leg, the platform's quaternion and position. Their rates, its angular velocity and its velocity
+/// follow.
 class Places {
  public:
   explicit Places(const Manipulator& machine) : legs_(3 * machine.parameters().legs.size()) {}
@@ -165,7 +166,8 @@ std::vector<Defect> wrongReactionForces(const Manipulator& machine) {
                          [=](Reactions& reactions) { std::swap(reactions[fifth], reactions[sixth]); })};
 }
 
-/// Defects in the energy balance, and in the replays to compare with; v is the index of the platform's velocity.
+/// Returns defects in the energy balance, and in the replays to compare with. `v` is the index of the platform's
+/// velocity.
 std::vector<Defect> wrongAccounts(std::size_t v) {
   return {wrongPower("no power of friction in the energy's account",
                      [](const SimbodyLoop::Power& power) { return -power.friction; }),

@@ -1,6 +1,6 @@
-// Defects in the users' kernels: in a kernel's input, and in the answers of one kernel or one instruction set.
-// Wrong terms of noc/ and of the paper's leg: as printed, omitted, or slightly off for one leg, in one frame or in one
-// system of units.
+// This file has defects in the users' kernels: in a kernel's input, and in the answers of one kernel or one instruction
+// set. It also has wrong terms of noc/ and of the paper's leg: as printed, omitted, or slightly off for one leg, in one
+// frame or in one system of units.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -109,7 +109,7 @@ Defect read(const char* name, const char* group, const std::function<void(Read&)
   return wrongFormula(name, group, fault);
 }
 
-/// An error in only one frame or system of units; only a change of them reveals it.
+/// Makes an error in only one frame or system of units, so that only a change of them reveals it.
 Defect readElsewhere(const char* name, const std::function<void(Read&)>& change) {
   Defect out = read(name, "one frame", change);
   out.engines = 1;
@@ -130,7 +130,7 @@ bool has(const Manipulator& machine, LegKind kind) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
-/// The formulas of the paper's leg.
+/// Returns the defects in the formulas of the paper's leg.
 std::vector<Defect> ofPapersLeg(const Manipulator& machine) {
   std::vector<Defect> out = {formula_error("(2) as printed: frame without tilt", "formula", FormulaError::eq2),
                              formula_error("(4c) as printed: q^2", "formula", FormulaError::eq4c),
@@ -154,7 +154,7 @@ std::vector<Defect> ofPapersLeg(const Manipulator& machine) {
   return out;
 }
 
-/// Every equation of section 3, and the parts of section 2 that all legs share.
+/// Returns the defects in the equations of section 3, and in the parts of section 2 that all legs share.
 std::vector<Defect> ofSectionThree(const Manipulator& machine) {
   std::vector<Defect> out = {
       formula_error("(26) as printed: B_dot", "formula", FormulaError::eq26_b_dot),
@@ -200,7 +200,7 @@ bool upright(const Read& machine) {
   return g > 0 && machine.gravity.z() <= -0.99 * g;
 }
 
-/// Terms that are off by 1e-6 for one leg, in one frame, or in one system of units.
+/// Returns the defects whose terms are off by 1e-6 for one leg, in one frame, or in one system of units.
 std::vector<Defect> ofLegFrameAndUnit() {
   const auto first = [](Read& m) -> LegModel<double>& { return m.legs.front(); };
   return {read("leg 1 alone: distal mass", "leg", [=](Read& m) { first(m).mass_2 *= 1 + off; }),

@@ -1,5 +1,5 @@
-// Defects in the kinematics that the solver returns beside its torques.
-// Defects in a narrow range: about a millisecond of a motion of three seconds, and never at a sample.
+// This file has two groups of defects. The first are in the kinematics that the solver returns beside its torques. The
+// others act in a narrow range: about a millisecond of a motion of three seconds, and never at a sample.
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -37,7 +37,7 @@ void faultAcrossMotion(const Motors& motors, KinematicAnswer& answer) {
   answer.T_rate *= Matrix6d::Identity() + 1e-6 * across;
 }
 
-/// The index of a leg whose proximal link turns; 0 if there is none.
+/// Returns the index of a leg after the first whose proximal link turns; 0 if there is none.
 std::size_t turningLink(const Manipulator& machine) {
   for (std::size_t i = 1; i < machine.parameters().legs.size(); ++i)
     if (!rowOf(machine.parameters().legs[i].kind).hasCarriage()) return i;
@@ -67,7 +67,7 @@ Defect countedOtherwise(Coordinate q, const char* how, ChangeCoordinate change) 
   return out;
 }
 
-/// Coordinates with the opposite sign, about another axis, or from the other end.
+/// Returns defects in which coordinates have the opposite sign, or count from another axis or from the other end.
 std::vector<Defect> otherCoordinates(const Manipulator& machine) {
   constexpr double half_pi = 1.57079632679489661923;
   std::vector<Defect> out;
@@ -155,7 +155,7 @@ struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 
-/// The range of `quantity` during the pulse.
+/// Returns the range of `quantity` during the pulse.
 Range rangeIn(const Pulse& pulse, const Trajectory& trajectory, const Solver<double>& solver,
               const Quantity& quantity) {
   Range out;
@@ -185,7 +185,7 @@ Defect branch(const std::string& name, double share, const Quantity& quantity) {
 
 using ChangeLeg = std::function<void(Vector6d& torques)>;
 
-/// A defect that acts only during a pulse.
+/// Changes the torques only during a pulse.
 Defect pulse(const char* name, double share, const ChangeLeg& change) {
   Defect out = wrongTorques(name, "branch", [share, change](const Scenario& s) -> ChangeTorques {
     return [pulse = Pulse(*s.trajectory, share), change](const Vector6d& torques, const Motion<double>& m) {

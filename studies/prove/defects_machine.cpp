@@ -1,5 +1,5 @@
-// Wrong numbers of the machine: each kind of parameter, exchanged legs, tensors in other frames.
-// The solver gets another motion than the commanded one.
+// This file has defects in the numbers of the machine: each kind of parameter, exchanged legs, tensors in other frames.
+// It also has defects in which the solver gets another motion than the commanded one.
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -17,7 +17,7 @@ using P = ManipulatorParameters;
 /// This is large relative to rounding, but invisible in a plot.
 constexpr double parameter_error = 1e-6;
 
-/// Tensor of a point mass about a point `arm` away.
+/// Returns the tensor of a point mass about a point `arm` away.
 Matrix3d pointInertia(double mass, const Vector3d& arm) {
   return mass * (arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose());
 }
@@ -26,14 +26,14 @@ Matrix3d aboutJoint(const Link& link) {
   return link.inertia + pointInertia(link.mass, link.center_of_mass * Vector3d::UnitZ());
 }
 
-/// The link's axes [x, axis × x, axis] turned by a quarter about the axis.
+/// Returns the tensor as if the link's axes [x, axis × x, axis] were turned by a quarter about the axis.
 Matrix3d quarterTurned(const Matrix3d& inertia) {
   Matrix3d turn;
   turn << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   return turn * inertia * turn.transpose();
 }
 
-/// A platform tensor with an error that depends on the orientation; adds the moment of the error.
+/// Makes the platform's tensor wrong by an amount that depends on the orientation, by adding the moment of the error.
 Defect wrongPlatformTensor(const char* name, const std::function<Matrix3d(const Matrix3d& I, const Matrix3d& Q)>& of) {
   return wrongTorques(name, "frame", [of](const Scenario& s) -> ChangeTorques {
     const auto solver = std::make_shared<const Solver<double>>(*s.manipulator);
@@ -52,6 +52,7 @@ struct LegPart {
   void (*copy)(Leg& to, const Leg& from);
 };
 
+/// Copies the coefficients alone; Coulomb friction has smoothing speeds as well.
 void copyCoefficients(JointFriction& to, const JointFriction& from) { to = from; }
 
 template <class T>
@@ -77,7 +78,7 @@ const std::array<LegPart, 11> parts{
       }},
      {"knee", [](Leg& to, const Leg& from) { to.knee = from.knee; }}}};
 
-/// The legs with two knee branches, 0-based.
+/// Returns the legs with two knee branches, 0-based.
 std::vector<std::size_t> kneesOf(const Manipulator& machine) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < machine.parameters().legs.size(); ++i)
@@ -85,7 +86,7 @@ std::vector<std::size_t> kneesOf(const Manipulator& machine) {
   return out;
 }
 
-/// One leg of each kind, the second one if there are two.
+/// Returns one leg of each kind, the second one if there are two.
 std::vector<int> legsMet(const Manipulator& machine) {
   std::vector<int> out;
   for (const LegKind kind : kindsOf(machine)) {
@@ -97,7 +98,7 @@ std::vector<int> legsMet(const Manipulator& machine) {
   return out;
 }
 
-/// Leg i gets the part of leg from(i).
+/// Gives leg i the part of leg from(i).
 Defect mixUp(const std::string& name, const LegPart& part, const std::function<std::size_t(std::size_t)>& from) {
   return wrongMachine(name, "index", [part, from](P& m) {
     const auto right = m.legs;
@@ -111,7 +112,7 @@ Defect wrongKnee(std::size_t leg) {
   });
 }
 
-/// Defects of legs with cylinder and rod.
+/// Returns the defects of legs with cylinder and rod.
 std::vector<Defect> wrongTelescopes(const Manipulator& machine) {
   const std::vector<LegKind> kinds = kindsOf(machine);
   if (std::find(kinds.begin(), kinds.end(), LegKind::UPS) == kinds.end()) return {};

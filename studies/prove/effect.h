@@ -15,8 +15,8 @@ class RightAnswers {
  public:
   explicit RightAnswers(const Scenario& scenario);
 
-  /// Which quantities are off by more than rounding, at instants between the samples; `dynamics` if no instant has an
-  /// answer. Wrong kinematics with right dynamics (a reversed axis without friction and motor) are visible only in
+  /// Says which quantities are off by more than rounding, at instants between the samples; `dynamics` if no instant has
+  /// an answer. Wrong kinematics with right dynamics (a reversed axis without friction and motor) are visible only in
   /// comparison with Simbody's.
   enum class Off { nothing, kinematics, dynamics };
   Off offIn(const Subject& subject) const;
@@ -32,10 +32,11 @@ class RightAnswers {
   std::vector<Instant> instants_;
 };
 
-/// Whether the scenarios' trajectories are different objects with the same motion up to rounding.
+/// Returns whether the scenarios' trajectories are different objects with the same motion up to rounding.
 bool movesAlike(const Scenario& a, const Scenario& b);
 
-/// Whether a check that applies to both has another verdict, or a value that differs by more than `share` of its limit.
+/// Returns whether a check that applies to both has another verdict, or a value that differs by more than `share` of
+/// its limit.
 bool sayOtherwise(const std::vector<Check>& a, const std::vector<Check>& b, double share);
 
 }  // namespace ursula

@@ -39,8 +39,8 @@ struct DefectProof {
   int controls = 0;  ///< number of mechanisms that were tried without a defect
 };
 
-/// What a check compares with: "Simbody" in either topology, "maximal coordinates", "MuJoCo", or the check itself if it
-/// needs none.
+/// Returns what a check compares with: "Simbody" in either topology, "maximal coordinates", "MuJoCo", or the check
+/// itself if it needs none.
 std::string engineOf(const std::string& check);
 
 /// The smallest relative error of one parameter at which `torque.pointwise` fails.
@@ -65,20 +65,20 @@ Scenario sampledForMany(Scenario scenario);
 /// Finds the smallest caught error of every parameter, to one in a hundred.
 std::vector<Sensitivity> proveSensitivities(const Scenario& scenario);
 
-/// The reverse test: `count` random valid scenarios from `seed` on; none may fail.
+/// Makes the reverse test: `count` random valid scenarios from `seed` on, of which none may fail.
 RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::function<void(int)>& done,
                            RandomKind kind = RandomKind::URS);
 
-/// Number of effective defects that too few formulations caught.
+/// Returns the number of effective defects that too few formulations caught.
 int weakDefects(const std::vector<DefectOutcome>& outcomes);
 
-/// Whether the check catches a defect alone or first.
+/// Returns whether the check catches a defect alone or first.
 inline bool isNeeded(const CheckProof& proof) { return !proof.alone.empty() || !proof.first.empty(); }
 
-/// Number of checks that are not needed, because earlier ones catch everything that they do.
+/// Returns the number of checks that are not needed, because earlier ones catch everything that they do.
 int idleChecks(const std::vector<CheckProof>& checks);
 
-/// Every check that caught anything, in the order of its first catch.
+/// Returns every check that caught anything, in the order of its first catch.
 std::vector<std::string> catchingChecks(const std::vector<DefectOutcome>& outcomes);
 
 /// The sensitivities of one kind of parameter.
@@ -100,7 +100,7 @@ struct ProveResult {
   std::uint64_t seed = 0;  ///< seed of the first random scenario
 };
 
-/// Whether the right solver passes, every defect is caught, every check is needed and no random scenario fails.
+/// Returns whether the right solver passes, every defect is caught, every check is needed and no random scenario fails.
 bool isProved(const ProveResult& found);
 
 /// Returns a page in the report's style: defects by checks, the need for each check, thresholds, random scenarios.

@@ -28,7 +28,8 @@ std::string escaped(const std::string& word) {
   return out + "\"";
 }
 
-/// Escapes a file name for Slurm, in which % starts a placeholder.
+/// Returns a log file in a folder, escaped for Slurm, in which % starts a placeholder. Throws for a folder that Slurm
+/// cannot write to.
 std::string logIn(const std::filesystem::path& folder, const std::string& name) {
   std::string out;
   for (const char c : folder.string()) out += c == '%' ? std::string("%%") : std::string(1, c);
@@ -75,7 +76,7 @@ std::string head(const SlurmJob& job, const std::string& name, int cpus, const s
   return out;
 }
 
-/// The start of a shard database's name, before the number.
+/// Returns the start of a shard database's name, before the number.
 std::string stemOf(const std::filesystem::path& database) { return database.stem().string() + ".shard-"; }
 
 }  // namespace
@@ -142,7 +143,7 @@ bool has(const std::vector<std::int64_t>& jobs, std::int64_t job) {
   return std::find(jobs.begin(), jobs.end(), job) != jobs.end();
 }
 
-/// Opens a database of this sweep; null if there is none yet.
+/// Opens a database of this sweep. Returns null if there is none yet.
 std::unique_ptr<Sqlite> opened(const std::filesystem::path& file, const SweepIdentity& ours) {
   if (!std::filesystem::exists(file)) return {};
   auto out = std::make_unique<Sqlite>(file, Sqlite::Access::read);
@@ -151,6 +152,7 @@ std::unique_ptr<Sqlite> opened(const std::filesystem::path& file, const SweepIde
   return out;
 }
 
+/// Returns whether another process is writing to the database now.
 bool isWrittenTo(const std::filesystem::path& file) {
   Sqlite database(file, Sqlite::Access::write);
   try {
@@ -161,6 +163,7 @@ bool isWrittenTo(const std::filesystem::path& file) {
   return false;
 }
 
+/// Returns the number of points in [first, end) that the database has.
 std::int64_t within(Sqlite& database, std::int64_t first, std::int64_t end) {
   return database.number(fmt::format("SELECT count(*) FROM point WHERE id >= {} AND id < {}", first, end));
 }

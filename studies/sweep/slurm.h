@@ -23,19 +23,19 @@ struct SlurmJob {
 /// The largest number of shards. Even if every other one is missing, their numbers fit into one option of sbatch.
 constexpr int most_slurm_shards = 2000;
 
-/// A file next to the final database: "tolerances.shard-2-of-4.db".
+/// Returns the database of a shard, next to the final one: "tolerances.shard-2-of-4.db".
 std::filesystem::path shardDatabase(const std::filesystem::path& database, const Shard& shard);
 
-/// The folder of scripts, logs and job numbers next to the database: "tolerances.slurm".
+/// Returns the folder of scripts, logs and job numbers next to the database: "tolerances.slurm".
 std::filesystem::path slurmFolder(const std::filesystem::path& database);
 
-/// The format of `--array`: "1-3,7".
+/// Returns the numbers in the format of `--array`: "1-3,7".
 std::string arrayNumbers(const std::vector<int>& ascending);
 
-/// The scripts for sbatch. Both throw std::invalid_argument for an option in `settings` that the user may not set, and
-/// for a path that Slurm cannot write logs to.
+/// Returns the script of the job array for sbatch. This function and mergeScript() throw std::invalid_argument for an
+/// option in `settings` that the user may not set, and for a path that Slurm cannot write logs to.
 std::string arrayScript(const SlurmJob& job);
-/// Merges all existing shards.
+/// Returns the script that merges all existing shards.
 std::string mergeScript(const SlurmJob& job);
 
 /// The jobs of a sweep, as stored next to its database.
@@ -44,7 +44,7 @@ struct SlurmJobs {
   std::vector<std::int64_t> arrays, merges;
 };
 
-/// Reads `FOLDER/jobs.json`; no jobs if it is missing. Throws std::runtime_error for other content.
+/// Reads `FOLDER/jobs.json`. Returns no jobs if it is missing. Throws std::runtime_error for other content.
 SlurmJobs readSlurmJobs(const std::filesystem::path& folder);
 void writeSlurmJobs(const std::filesystem::path& folder, const SlurmJobs& jobs);
 
@@ -55,7 +55,7 @@ struct QueuedTask {
   std::string state;  ///< Slurm's state: "RUNNING", "PENDING"
 };
 
-/// The format that squeue is asked for, and its parser. Throws std::runtime_error for another answer.
+/// The format that squeue is asked for. readQueue() parses its answer and throws std::runtime_error for another one.
 constexpr const char* queue_format = "%F|%K|%T";
 std::vector<QueuedTask> readQueue(const std::string& answer);
 
@@ -74,9 +74,9 @@ struct SlurmStanding {
   std::vector<int> in(ShardState state) const;  ///< numbers of these shards, from 1
 };
 
-/// `sweep` is the whole one; `queue` is empty without Slurm. It does not open databases of queued shards, because a
-/// shared file system may allow only one machine at a time. Throws DatabaseError for a database of another sweep, and
-/// for a damaged one.
+/// Returns the progress. `sweep` is the whole one; `queue` is empty without Slurm. It does not open databases of queued
+/// shards, because a shared file system may allow only one machine at a time. Throws DatabaseError for a database of
+/// another sweep, and for a damaged one.
 SlurmStanding standingOf(const SweepIdentity& sweep, const std::filesystem::path& database, int shards,
                          const SlurmJobs& jobs, const std::vector<QueuedTask>& queue);
 

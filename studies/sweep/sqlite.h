@@ -38,13 +38,13 @@ class Sqlite {
   Sqlite(const Sqlite&) = delete;
   Sqlite& operator=(const Sqlite&) = delete;
 
-  /// Polls `stop`, even within a statement, and throws DatabaseStopped if it returns true; may be empty.
+  /// Polls `stop`, even within a statement, and throws DatabaseStopped if it returns true. `stop` may be empty.
   void stopWhen(std::function<bool()> stop);
   void run(const std::string& sql);
   /// Returns the first column of the first row.
   std::int64_t number(const std::string& sql);
   std::string text(const std::string& sql);
-  /// Whether the open file was renamed or removed.
+  /// Returns whether the open file was renamed or removed.
   bool hasMoved() const;
   /// Returns the number of rows that the last statement changed.
   std::int64_t changed() const;

@@ -39,8 +39,8 @@ void create(Sqlite& database, const SweepIdentity& identity) {
       .run();
 }
 
-/// Our tables must be as create() made them, without triggers: a view instead of a table, or a trigger, may never end.
-/// Indexes, views and tables that users added for queries may stay.
+/// Refuses tables that are not as create() made them, and triggers. A view instead of a table, or a trigger, may never
+/// end. Users' own indexes, views and tables for queries may stay.
 void requireOurTables(Sqlite& database) {
   Statement each(
       database,

@@ -86,7 +86,7 @@ SweepIdentity readIdentity(Sqlite& database);
 /// Throws DatabaseError unless `file`, with the identity `there`, has the same sweep, shard and program version as
 /// `ours`.
 void requireSame(const std::filesystem::path& file, const SweepIdentity& there, const SweepIdentity& ours);
-/// Whether the database has no content, because its creator ended early.
+/// Returns whether the database has no content, because its creator ended early.
 bool isEmpty(Sqlite& database);
 
 }  // namespace ursula

@@ -48,7 +48,7 @@ Variation stepsOf(const TomlSection& table) {
   return out;
 }
 
-/// A width, which must be positive.
+/// Reads a width, which must be positive.
 Variation widthOf(const TomlSection& table, const char* key, Variation::Kind kind) {
   Variation out;
   out.kind = kind;
@@ -95,7 +95,7 @@ Vary varyOf(const TomlSection& table, SweepDesign design) {
   return out;
 }
 
-/// toml++ has 64-bit integers, TomlSection 32-bit ones.
+/// Reads an integer of 64 bits, because TomlSection reads 32 bits only.
 std::int64_t integerOf(const TomlSection& table, const char* key) {
   const ScenarioKey& about = keysOfDocument().key(key);
   const toml::node* node = table.table().get(key);

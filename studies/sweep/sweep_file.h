@@ -40,7 +40,7 @@ struct SlurmSettings {
 enum class SweepWork { validate, inverse };
 enum class SweepDesign { grid, random, sobol };
 
-/// "validate" …, "grid" …
+/// Returns the word of the sweep file: "validate" …, "grid" ….
 const char* name(SweepWork work);
 const char* name(SweepDesign design);
 
@@ -63,7 +63,7 @@ SweepFile readSweepFile(const std::filesystem::path& file);
 /// The same from a text.
 SweepFile parseSweepFile(const std::string& text, const std::filesystem::path& file);
 
-/// Its keys; the reader uses them and docs/sweep.md describes them.
+/// Returns the keys of a sweep's file. The reader uses them and docs/sweep.md describes them.
 const std::vector<ScenarioTable>& sweepTables();
 
 /// The largest number of points of a sweep.

@@ -34,7 +34,7 @@ class SweepPlan {
   Scenario read(std::int64_t i);
   /// Returns the same scenario without its text, but faster.
   Scenario make(std::int64_t i);
-  /// Whether the motion varies; if not, all scenarios of make() share the same object.
+  /// Returns whether the motion varies. If not, all scenarios of make() share the same object.
   bool variesMotion() const { return varies_trajectory_; }
 
  private:
