@@ -97,7 +97,7 @@ class Start {
   posix_spawnattr_t attributes;
 };
 
-/// The group is killed because a command may ignore the end of its input.
+/// Kills the group of the process, because a command may ignore the end of its input.
 void endGroup(const void* leader) { ::kill(-*static_cast<const pid_t*>(leader), SIGKILL); }
 
 /// The copy ignores SIGINT, which a terminal sends to all, and SIGPIPE. It dies with its parent.

@@ -41,9 +41,9 @@ class ChildProcess {
   void kill();
   /// Waits until it has ended by itself.
   void wait();
-  /// The status from waitpid, once it was waited for.
+  /// Returns the status from waitpid, once it was waited for.
   int status() const { return status_; }
-  /// "ended with exit code 3", "was ended by signal 9 (Killed)".
+  /// Returns "ended with exit code 3", "was ended by signal 9 (Killed)".
   std::string howItEnded() const;
 
  private:

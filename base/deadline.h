@@ -14,8 +14,8 @@ struct OutOfTime : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Whether an error is a lack of memory or time, which says nothing about the machine. Code that turns errors into
-/// results passes it on.
+/// Returns whether an error is a lack of memory or time, which says nothing about the machine. Code that turns errors
+/// into results passes it on.
 bool isShortage(const std::exception& error);
 
 /// Says when long work has to end: after some seconds, once somebody asks for it, or never (the default). Copies share

@@ -43,7 +43,7 @@ std::filesystem::path temporaryIn(const std::filesystem::path& folder, const std
 enum class Lock { free, taken, unknown };
 Lock tryLock(int descriptor);
 
-/// Whether `name` still is the file that `descriptor` has open.
+/// Returns whether `name` still is the file that `descriptor` has open.
 bool isStill(int descriptor, const std::filesystem::path& name);
 
 /// Writes all of `content` to an open file. Returns false and sets errno if the system refuses.

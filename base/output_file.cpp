@@ -26,14 +26,14 @@ bool isLink(const fs::path& file) {
   return fs::is_symlink(fs::symlink_status(file, ignored));
 }
 
-/// Whether the link leads to an open file, which may have no name or another's.
+/// Returns whether the link leads to an open file, which may have no name or another's.
 bool isOpenElsewhere(const fs::path& link) {
   std::error_code error;
   const fs::path folder = fs::canonical(link.parent_path(), error);
   return !error && folder.string().compare(0, 6, "/proc/") == 0;
 }
 
-/// Whether it is a device, a pipe or an open file, whose users would lose it if it were replaced.
+/// Returns whether it is a device, a pipe or an open file, whose users would lose it if it were replaced.
 bool isWrittenThrough(const fs::path& end) {
   std::error_code ignored;
   const fs::file_status status = fs::status(end, ignored);

@@ -54,7 +54,7 @@ std::filesystem::path endOfLinks(std::filesystem::path file);
 /// folder without write permission. Root is refused a read-only file or folder, too.
 void requireWritable(const std::filesystem::path& file);
 
-/// The same for files in a folder that may not exist yet; the message names `shown`.
+/// Throws the same for files in a folder that may not exist yet; the message names `shown`.
 void requireWritableFolder(const std::filesystem::path& folder, const std::filesystem::path& shown);
 
 }  // namespace ursula

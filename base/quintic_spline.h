@@ -34,7 +34,7 @@ class QuinticHermite {
       pieces_.push_back({S(piece.start), S(piece.duration), piece.coefficients.template cast<S>()});
   }
 
-  /// The curve under a linear map of its values, with time divided by `time_unit`.
+  /// Returns the curve under a linear map of its values, with time divided by `time_unit`.
   QuinticHermite mapped(const Eigen::Matrix<S, D, D>& map, const S& time_unit) const {
     QuinticHermite out(*this);
     for (Piece& piece : out.pieces_) {
@@ -45,7 +45,7 @@ class QuinticHermite {
     return out;
   }
 
-  /// The same curve with `offset` subtracted from every value.
+  /// Returns the same curve with `offset` subtracted from every value.
   QuinticHermite shifted(const Vector& offset) const {
     QuinticHermite out(*this);
     for (Piece& piece : out.pieces_) piece.coefficients.col(0) -= offset;

@@ -78,7 +78,8 @@ namespace {
 
 bool continues(unsigned char byte) { return (byte & 0xC0) == 0x80; }
 
-/// The length in bytes of the UTF-8 character at the start of `text`, or 0 if there is none; standard's table 3-7.
+/// Returns the length in bytes of the UTF-8 character at the start of `text`, or 0 if there is none; standard's table
+/// 3-7.
 std::size_t characterOf(std::string_view text) {
   const auto byte = [text](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   const unsigned char first = byte(0);

@@ -21,7 +21,7 @@ LeadingNumber leadingNumber(std::string_view text);
 /// empty string if that distance exceeds a third of the longer word's length (at least 1).
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
-/// `, did you mean 'mass'?`, or empty if no candidate is near.
+/// Returns `, did you mean 'mass'?`, or empty if no candidate is near.
 std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates);
 
 /// Returns a file name as one shell word: quoted if needed, and never an option.
@@ -31,7 +31,7 @@ std::string shellWord(const std::string& file);
 /// lines stay.
 std::string withoutControls(std::string_view text);
 
-/// The same for one cell or name: newlines are escaped, too. Text beyond `most` bytes is cut and marked by "…".
+/// Returns the same for one cell or name: newlines are escaped, too. Text beyond `most` bytes is cut and marked by "…".
 std::string shown(std::string_view text, std::size_t most = 80);
 
 /// Returns a whole path of any length; a newline in it is escaped.

@@ -53,7 +53,7 @@ void refuseLonelyPipe(int file, const TextBounds& bounds) {
   ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
 }
 
-/// ", did you mean 'my.toml'?", of the names in the missing file's folder.
+/// Returns ", did you mean 'my.toml'?", of the names in the missing file's folder.
 std::string nearName(const std::filesystem::path& file) {
   constexpr std::size_t most = 1000;
   std::vector<std::string> names;

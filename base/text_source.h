@@ -27,7 +27,7 @@ struct TextBounds {
 /// or a pipe that nobody writes to within half a second, and at its first zero byte.
 std::string readText(const std::filesystem::path& file, const TextBounds& bounds);
 
-/// The same for standard input.
+/// Reads the same from standard input.
 std::string readStandardInput(const TextBounds& bounds);
 
 /// Throws TextRefusal for an empty path and for one with a zero byte, where the system would cut it off.

@@ -40,7 +40,7 @@ std::string plainName(const std::string& name) {
   return out.find_first_not_of('-') == std::string::npos ? "imported" : out;
 }
 
-/// "{ phi = 0.1, d = 2.0 }": the non-zero values by coordinate, then `more`; "" if all are zero.
+/// Returns "{ phi = 0.1, d = 2.0 }": the non-zero values by coordinate, then `more`; "" if all are zero.
 std::string byCoordinate(const Leg& leg, const PerCoordinate& values, const std::string& more) {
   std::string out;
   for (const Coordinate each : rowOf(leg.kind).coordinates)
@@ -106,7 +106,7 @@ std::string motionText(const ImportedMachine& machine) {
   return out + "]\n";
 }
 
-/// "leg_1_d, leg_2_d, …": names in the file of the motors, in the order of the scenario's efforts.
+/// Returns "leg_1_d, leg_2_d, …": names in the file of the motors, in the order of the scenario's efforts.
 std::string motorsOf(const ImportedMachine& machine) {
   std::string out;
   for (const ImportedLeg& leg : machine.legs)

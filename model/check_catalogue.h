@@ -51,10 +51,10 @@ struct CheckRow {
   const char* on_failure;
 };
 
-/// Every check, in the order of results.
+/// Returns every check, in the order of results.
 const std::vector<CheckRow>& checkCatalogue();
 
-/// The names of all checks.
+/// Returns the names of all checks.
 std::vector<std::string> namesOfChecks();
 
 /// Returns null if no check has that name.
@@ -63,16 +63,16 @@ const CheckRow* checkRow(const std::string& name);
 /// Returns the check's title, or its name if the catalogue lacks it.
 std::string checkTitle(const std::string& name);
 
-/// The questions, in the order of CheckGroup.
+/// Returns the questions, in the order of CheckGroup.
 const std::vector<std::string>& checkGroups();
 
 /// Index into checkGroups(); its size if the catalogue lacks the check.
 std::size_t groupOf(const std::string& check);
 
-/// "exact", "derived" or "measured".
+/// Returns "exact", "derived" or "measured".
 const char* name(LimitFrom from);
 
-/// The catalogue's three parts, in the order of checkCatalogue().
+/// These functions return the three parts of the catalogue, in the order of checkCatalogue().
 std::vector<CheckRow> checksOfInput();
 std::vector<CheckRow> checksOfTorques();
 std::vector<CheckRow> checksOfReplay();

@@ -7,13 +7,13 @@
 
 namespace ursula {
 
-/// The k-th of `count` equally spaced instants, k from 0.
+/// Returns the k-th of `count` equally spaced instants, k from 0.
 inline double instantOf(double duration, int k, int count) { return duration * k / (count - 1); }
 
-/// `count` equally spaced instants from 0 to `duration`, both included.
+/// Returns `count` equally spaced instants from 0 to `duration`, both included.
 std::vector<double> equallySpaced(double duration, int count);
 
-/// The instants at which a higher derivative of motion or load jumps, in order.
+/// Returns the instants at which a higher derivative of motion or load jumps, in order.
 std::vector<double> allKnots(const Scenario& scenario);
 
 /// A replay steps to each of up to this many knots. If there are more, it skips each that is less than a 4096th of the

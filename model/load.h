@@ -36,11 +36,11 @@ class LoadHistory {
   LoadHistory& operator=(const LoadHistory&) = delete;
 
   Wrench<double> at(double t) const;
-  /// The wrench in 50 digits; S must be Real50, else it does not link.
+  /// Returns the wrench in 50 digits; S must be Real50, else it does not link.
   template <class S, class = std::enable_if_t<!std::is_arithmetic_v<S>>>
   Wrench<S> at(const S& t) const;
   const std::vector<TimedWrench>& rows() const;
-  /// The rows' times in s; the third derivative jumps there.
+  /// Returns the rows' times in s; the third derivative jumps there.
   const std::vector<double>& knots() const;
 
  private:
@@ -60,7 +60,7 @@ struct Load {
 
   /// Force and moment at t, in `frame`. Does not allocate.
   Wrench<double> at(double t) const;
-  /// The same in 50 digits; S must be Real50, else it does not link.
+  /// Returns the same in 50 digits; S must be Real50, else it does not link.
   template <class S, class = std::enable_if_t<!std::is_arithmetic_v<S>>>
   Wrench<S> at(const S& t) const;
 };

@@ -42,7 +42,7 @@ struct MachineNumber {
   double get(const ManipulatorParameters& machine) const;
   /// Sets both entries of an off-diagonal pair of an inertia.
   void set(ManipulatorParameters& machine, double value) const;
-  /// The norm of its vector, the largest entry of its tensor, or its own absolute value.
+  /// Returns the norm of its vector, the largest entry of its tensor, or its own absolute value.
   double size(const ManipulatorParameters& machine) const;
 };
 

@@ -56,9 +56,9 @@ struct Leg {
   /// Whether the rod between two balls, or cylinder and rod, turns freely about its line. At first it does not spin.
   bool spins = false;
 
-  /// Whether a motor drives the coordinate.
+  /// Returns whether a motor drives the coordinate.
   bool drives(Coordinate coordinate) const;
-  /// The axis of the proximal link's frame along its line; for a carriage that is û.
+  /// Returns the axis of the proximal link's frame along its line; for a carriage that is û.
   int proximalLine() const { return rowOf(kind).hasCarriage() ? 1 : 2; }
   /// Mass centres relative to the links' first ends, in the links' frames.
   Vector3d proximalCenter() const {
@@ -74,7 +74,7 @@ struct Motor {
   Coordinate coordinate = Coordinate::phi;
 
   bool slides() const { return ursula::slides(coordinate); }
-  /// "Nm" or "N", as in column names.
+  /// Returns "Nm" or "N", as in column names.
   const char* effortUnit() const { return slides() ? "N" : "Nm"; }
 };
 using Motors = std::array<Motor, motor_count>;
@@ -101,16 +101,16 @@ class Manipulator {
   /// base and platform. Throws InvalidParameter with key, value and bound.
   explicit Manipulator(const ManipulatorParameters& parameters);
 
-  /// The parameters of the moving machine: here a freely spinning link has no inertia about its line, because it never
-  /// begins to spin.
+  /// Returns the parameters of the moving machine: here a freely spinning link has no inertia about its line, because
+  /// it never begins to spin.
   const ManipulatorParameters& parameters() const { return parameters_; }
-  /// The parameters as given.
+  /// Returns the parameters as given.
   const ManipulatorParameters& given() const { return given_; }
   const Leg& leg(int i) const { return parameters_.legs[static_cast<std::size_t>(i)]; }
   int legCount() const { return static_cast<int>(parameters_.legs.size()); }
-  /// The motors in the order of efforts: by leg, then by the leg's coordinates.
+  /// Returns the motors in the order of efforts: by leg, then by the leg's coordinates.
   const Motors& motors() const { return motors_; }
-  /// Whether it has six URS legs with a motor on each φ; the paper's equations hold for these.
+  /// Returns whether it has six URS legs with a motor on each φ; the paper's equations hold for these.
   bool isOfThePaper() const;
   const Platform& platform() const { return parameters_.platform; }
   const Vector3d& gravity() const { return parameters_.gravity; }
@@ -120,7 +120,7 @@ class Manipulator {
   Motors motors_;
 };
 
-/// Whether some motor has a rotor inertia.
+/// Returns whether some motor has a rotor inertia.
 bool hasRotors(const Manipulator& manipulator);
 
 /// Returns the same machine without friction.

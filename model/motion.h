@@ -16,7 +16,7 @@ struct Motion {
   Vector3<S> p_ddot = Vector3<S>::Zero();     ///< acceleration of P
 };
 
-/// Whether pose, twist and twist rate are equal, at whatever instants.
+/// Returns whether pose, twist and twist rate are equal, at whatever instants.
 inline bool sameState(const Motion<double>& a, const Motion<double>& b) {
   return a.p == b.p && a.Q == b.Q && a.omega == b.omega && a.p_dot == b.p_dot && a.omega_dot == b.omega_dot &&
          a.p_ddot == b.p_ddot;

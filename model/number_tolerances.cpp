@@ -93,7 +93,7 @@ class ToleranceTaker {
   const std::string& file_;
 };
 
-/// Whether the document has the key at the end of `parts`, under either name.
+/// Returns whether the document has the key at the end of `parts`, under either name.
 bool gives(const toml::node* at, const std::vector<std::string>& parts) {
   for (const std::string& part : parts) {
     const toml::table* table = at == nullptr ? nullptr : at->as_table();

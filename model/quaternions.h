@@ -12,7 +12,7 @@ namespace ursula {
 /// each other has the sign nearer to its predecessor.
 std::vector<Eigen::Vector4d> quaternions(const std::vector<Motion<double>>& motions);
 
-/// An angle in radians, correctly rounded.
+/// Returns an angle in radians, correctly rounded.
 double radians(double degrees);
 
 /// Returns the unit quaternion [w, x, y, z] of roll, pitch and yaw in degrees. They are rotations about the fixed axes

@@ -55,7 +55,7 @@ struct Scenario {
 
   /// Marks machine, trajectory and load as those that `text` describes.
   void markAsRead() { read_ = {manipulator.get(), trajectory.get(), load.get()}; }
-  /// Whether `text` describes it: false if a program made the scenario or changed it after reading.
+  /// Returns whether `text` describes it: false if a program made the scenario or changed it after reading.
   bool isAsRead() const {
     return read_[0] != nullptr && read_ == std::array<const void*, 3>{manipulator.get(), trajectory.get(), load.get()};
   }
@@ -67,7 +67,7 @@ struct Scenario {
 /// Reads and checks a whole scenario. Throws ScenarioError; unknown content is an error.
 Scenario readScenario(const std::filesystem::path& file);
 
-/// The same from a text; `file` names it in errors and anchors relative paths.
+/// Reads the same from a text; `file` names it in errors and anchors relative paths.
 Scenario parseScenario(const std::string& text, const std::filesystem::path& file);
 
 }  // namespace ursula

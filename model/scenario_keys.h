@@ -46,13 +46,14 @@ struct ScenarioKey {
   bool isRequired() const { return fallback[0] == '!'; }
 };
 
-/// The row of a table, or with KeyType::tables of an array of them; `of` names the ScenarioTable of their content.
+/// Returns the row of a table, or with KeyType::tables of an array of them; `of` names the ScenarioTable of their
+/// content.
 inline ScenarioKey tableKey(const char* name, const char* fallback, const char* meaning, const char* of,
                             KeyType type = KeyType::table) {
   return {name, type, "", fallback, meaning, {}, {}, of};
 }
 
-/// The row of a key that takes one of these words.
+/// Returns the row of a key that takes one of these words.
 inline ScenarioKey choiceKey(const char* name, const char* fallback, const char* meaning,
                              const std::vector<std::string>& choices) {
   return {name, KeyType::choice, "", fallback, meaning, {}, choices};
@@ -81,7 +82,7 @@ std::string otherFrictionName(const std::string& key);
 /// Throws std::out_of_range for an unknown table.
 const ScenarioTable& scenarioTable(const std::string& name);
 
-/// The tables of the machine, a part of scenarioTables().
+/// Returns the tables of the machine, a part of scenarioTables().
 std::vector<ScenarioTable> machineTables();
 
 // Common parts of the lists of keys.

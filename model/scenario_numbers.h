@@ -28,7 +28,7 @@ class ScenarioNumbers {
   double hold(const std::string& key);
   /// Returns the place of the number that was held last. It stays valid while others are held.
   const toml::node* last() const { return held_.back().node; }
-  /// Whether the k-th held number must be an integer.
+  /// Returns whether the k-th held number must be an integer.
   bool isInteger(std::size_t k) const { return held_[k].node->is_integer(); }
   /// Sets the k-th held number. Throws NumberKeyError for a non-integer if an integer is required.
   void set(std::size_t k, double value);

@@ -20,8 +20,8 @@ class Trajectory {
   virtual std::string kind() const = 0;
   virtual double duration() const = 0;  ///< t_f, s
   virtual Motion<double> at(double t) const = 0;
-  /// The motion in 50 digits, as the checks need it; S must be Real50, else it does not link. Throws std::logic_error
-  /// if exact() is null.
+  /// Returns the motion in 50 digits, as the checks need it; S must be Real50, else it does not link. Throws
+  /// std::logic_error if exact() is null.
   template <class S, class = std::enable_if_t<!std::is_arithmetic_v<S>>>
   Motion<S> at(const S& t) const;
   /// Returns null if the motion is known in doubles only; differences of doubles then check its derivatives.

@@ -250,8 +250,8 @@ MaximalLoop::VectorX MaximalLoop::unbalanced(const Motion<double>& motion) const
   return w;
 }
 
-/// q̈ of a motor's coordinate from its bodies: the rate of (ω_child − ω_parent) · axis, or of the velocity along the
-/// slide. Along the slide, Coriolis acceleration and the parent's rotation have no part.
+/// Returns q̈ of a motor's coordinate from its bodies: the rate of (ω_child − ω_parent) · axis, or of the velocity
+/// along the slide. Along the slide, Coriolis acceleration and the parent's rotation have no part.
 double MaximalLoop::accelerationOf(const Motor& motor) const {
   const PlacedLeg& leg = legs_[at(motor.leg)];
   const auto [which, k] = jointAndAxis(leg, motor.joint);

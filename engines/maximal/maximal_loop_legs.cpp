@@ -41,7 +41,7 @@ Matrix3d frameOf(const Vector3d& x, const Vector3d& axis) {
   return frame;
 }
 
-/// [x̂, û, ẑ] with a horizontal x̂.
+/// Returns [x̂, û, ẑ] with a horizontal x̂.
 Matrix3d fixedFrame(const Vector3d& u) {
   Vector3d x = u.cross(Vector3d::UnitZ());
   if (x.squaredNorm() < 1e-20) x = u.cross(Vector3d::UnitY());

@@ -59,11 +59,12 @@ class SimbodyLoop {
   /// Sets platform and joints to a given state, whether or not the loops close.
   void place(const Motion<double>& motion, const JointMotion& joint_motion);
 
-  /// The joints of the state last placed or set.
+  /// Returns the joints of the state last placed or set.
   JointMotion joints() const;
   Motion<double> platform() const;  ///< its accelerations are the last placed or computed ones
   Closure closure() const;
-  /// The largest acceleration, m/s², at which a ball's gap opens after accelerate(): rounding only. Only for six_balls.
+  /// Returns the largest acceleration, m/s², at which a ball's gap opens after accelerate(): rounding only. Only for
+  /// six_balls.
   double gapAcceleration() const;
   Energy energy() const;
 
@@ -81,8 +82,8 @@ class SimbodyLoop {
   /// multipliers if links are nearly massless.
   void accelerate(const Vector6d& torques);
 
-  /// The platform's twist rate [ω̇; p̈] by Simbody's own realize(Acceleration) minus that by accelerate(), under these
-  /// torques. The difference is rounding unless Simbody drops multipliers. Only for six_balls.
+  /// Returns the platform's twist rate [ω̇; p̈] by Simbody's own realize(Acceleration) minus that by accelerate(),
+  /// under these torques. The difference is rounding unless Simbody drops multipliers. Only for six_balls.
   Vector6d ownTwistRateError(const Vector6d& torques);
 
   /// Forces and moments at the joints after accelerate(). Only for six_balls.
@@ -96,7 +97,7 @@ class SimbodyLoop {
   /// Uses realize(Velocity), calcResidualForceIgnoringConstraints and calcGTranspose; the platform's speeds are [ω; ṗ].
   void openTree(const TreeCoordinates& at, OpenTree& out);
 
-  /// The platform's twist rate [ω̇; p̈] under efforts, by realize(Acceleration). Ignores accelerations in `at`.
+  /// Returns the platform's twist rate [ω̇; p̈] under efforts, by realize(Acceleration). Ignores accelerations in `at`.
   Vector6d twistRate(const TreeCoordinates& at, const Vector6d& efforts);
 
   // --- as a system of ordinary differential equations: x = [q, u] ---

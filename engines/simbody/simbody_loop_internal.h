@@ -32,7 +32,7 @@ inline Matrix3d toEigen(const SimTK::Rotation& R) {
   return out;
 }
 
-/// [ω; v] or [n; f].
+/// Returns [ω; v] or [n; f].
 inline Vector6d toEigen(const SimTK::SpatialVec& v) {
   Vector6d out;
   out << toEigen(v[0]), toEigen(v[1]);
@@ -121,7 +121,7 @@ struct SimbodyLoop::Impl {
   Topology topology;
 
   int legCount() const { return parameters.legCount(); }
-  /// The state that derivative() realizes.
+  /// Returns the state that derivative() realizes.
   const SimTK::State& differentiated() const { return topology == Topology::six_balls ? open : state; }
   /// Returns the index in u of a leg's joint.
   int indexOf(int joint, int leg) const;

@@ -22,7 +22,7 @@ struct Place {
       : u(frame.col(1)), d(to_B), off_axis(d - d.dot(u) * u), z(off_axis.normalized()), x(u.cross(z)) {}
 };
 
-/// φ of a leg whose plane has the normal x.
+/// Returns φ of a leg whose plane has the normal x.
 double turnOf(const Vector3d& x, const Matrix3d& frame) { return std::atan2(x.dot(frame.col(2)), x.dot(frame.col(0))); }
 
 /// The plane of the leg contains u and B. The knee R is where the circles about A and B meet in it, on the side that

@@ -40,13 +40,13 @@ Motion<double> poseAt(const ImportedMachine& machine, const SmallHelix& helix, d
   return out;
 }
 
-/// The margin of a triangle's third side; at either end the triangle is stretched or folded.
+/// Returns the margin of a triangle's third side; at either end the triangle is stretched or folded.
 double within(double least, double value, double most) {
   return std::min(value - least, most - value) / (most - least);
 }
 
-/// The share of a leg's range, up to 1, that is left at a pose of M in B. It is not positive if the leg cannot take the
-/// pose.
+/// Returns the share of a leg's range, up to 1, that is left at a pose of M in B. It is not positive if the leg cannot
+/// take the pose.
 double reserveOf(const Leg& leg, const Motion<double>& pose) {
   const LegKindRow& row = rowOf(leg.kind);
   const Vector3d AB = pose.p + pose.Q * leg.platform_point - leg.base_point;
@@ -86,7 +86,7 @@ Matrix6d driveMap(const ImportedMachine& machine, const Motion<double>& pose, do
   return out;
 }
 
-/// The distance from singularity: the smallest singular value over the largest, with the determinant's sign.
+/// Returns the distance from singularity: the smallest singular value over the largest, with the determinant's sign.
 double regularity(const ImportedMachine& machine, const Motion<double>& pose, double size) {
   try {
     const Matrix6d map = driveMap(machine, pose, size);

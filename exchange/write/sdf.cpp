@@ -54,7 +54,7 @@ class SdfWriter {
     return out;
   }
 
-  /// "leg_1_phi_psi" for leg_1_phi and leg_1_psi.
+  /// Returns "leg_1_phi_psi" for leg_1_phi and leg_1_psi.
   std::string nameOf(const TreeBody& tree_body) const {
     std::string out = graph_.joints[tree_body.joints.front()].name;
     for (std::size_t k = 1; k < tree_body.joints.size(); ++k) {

@@ -21,7 +21,7 @@ struct LegJoint {
   Vector3d at = Vector3d::Zero();                            ///< m
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  ///< need not be unit
 
-  /// `turn` as a matrix; exact if its entries are small integers.
+  /// Returns `turn` as a matrix; exact if its entries are small integers.
   Matrix3d rotation() const;
 };
 using LegJoints = std::array<LegJoint, 3>;
@@ -38,20 +38,20 @@ struct LegChain {
   Vector3d far_end;                 ///< the proximal link's far end in its frame, m
   Vector3d tip;                     ///< the leg's point in the distal link's frame, m
 
-  /// Number of joints before a link's own.
+  /// Returns the number of joints before a link's own.
   int firstOf(int link) const { return link == 0 ? 0 : row.joints_of_proximal; }
   int jointsOf(int link) const { return link == 0 ? row.joints_of_proximal : 3 - row.joints_of_proximal; }
-  /// The link that the j-th joint moves first.
+  /// Returns the link that the j-th joint moves first.
   int linkOf(int j) const { return j < row.joints_of_proximal ? 0 : 1; }
-  /// Whether the link follows the j-th joint at once, as it does the last of its own.
+  /// Returns whether the link follows the j-th joint at once, as it does the last of its own.
   bool movesLink(int j) const { return j + 1 == firstOf(linkOf(j)) + jointsOf(linkOf(j)); }
   bool slides(int j) const { return ursula::slides(row.coordinates[static_cast<std::size_t>(j)]); }
   const LegJoint& joint(int j) const { return joints[static_cast<std::size_t>(j)]; }
-  /// The j-th joint's frame at zero in the frame before it; the first one's is in B.
+  /// Returns the j-th joint's frame at zero in the frame before it; the first one's is in B.
   Eigen::Isometry3d place(int j) const;
 };
 LegChain chainOf(const Leg& leg);
-/// The same, with φ counted from another frame [x, û, x × û].
+/// Returns the same, with φ counted from another frame [x, û, x × û].
 LegChain chainOf(const Leg& leg, const Matrix3d& frame);
 
 /// Returns the coordinates at which the leg's point is `AB` from the base point, in B, on the leg's own branch; φ

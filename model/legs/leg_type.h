@@ -42,7 +42,7 @@ class LegType {
 
   /// Returns the three joints, from the base to the tip.
   virtual LegJoints joints(const Leg& leg) const = 0;
-  /// coordinatesAt() of a leg that can reach.
+  /// Returns what coordinatesAt() does, for a leg that can reach.
   virtual Vector3d coordinates(const Leg& leg, const Matrix3d& frame, const Vector3d& AB) const = 0;
 
   /// Returns the distance that the leg must span and what it can span.
@@ -59,14 +59,14 @@ class LegType {
   /// Names the axis about which the first angle is measured, for the message about a platform point on it.
   virtual const char* firstAxis() const { return "axis of its motor"; }
   virtual const char* firstAngle() const { return "motor's"; }
-  /// The part that bends, and its state at a dead centre.
+  /// Returns the part that bends, and its state at a dead centre.
   virtual const char* bends() const { return "knee"; }
   virtual const char* atDeadCentre() const { return "straight or folded"; }
 
   /// Returns links that span `span` with `angle` at the knee or its equivalent (rad, 20° to 160°). `ratio` is l over s,
   /// or over the part of s across the axis.
   virtual LinkLengths lengths(const LegSpan& span, double angle, double ratio) const = 0;
-  /// Whether the leg has two dead centres, folded and stretched; lengths() reaches them at 0 and 180°.
+  /// Returns whether the leg has two dead centres, folded and stretched; lengths() reaches them at 0 and 180°.
   virtual bool folds() const { return true; }
   /// Returns links within `angle` of the dead centre of a leg that does not fold; nullopt if it has none.
   virtual std::optional<LinkLengths> lengthsAtDeadCentre(const LegSpan& span, double angle) const;

@@ -25,7 +25,7 @@ class Ups : public LegType {
     return {span.distance, s, l + s, "its base and platform points are", "m apart, and its cylinder and rod span"};
   }
 
-  /// The distance of the rod's inner end from the nearer end of the cylinder, m.
+  /// Returns the distance of the rod's inner end from the nearer end of the cylinder, m.
   double margin(const Leg& leg, const JointVariables<double>& q, int i) const override {
     const double out = q.d(i) - leg.distal.length;
     return std::min(out, leg.proximal.length - out);

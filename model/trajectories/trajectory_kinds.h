@@ -41,10 +41,10 @@ std::vector<ScenarioTable> motionTables();
 
 // --- common parts of the kinds' files ---
 
-/// The key `kind`, with the names above as choices.
+/// Returns the key `kind`, with the names above as choices.
 ScenarioKey kindKey();
 ScenarioKey positionKey();
-/// The keys `orientation`, a quaternion, and `rpy_deg`, its alternative; readOrientation() reads either.
+/// Returns the keys `orientation`, a quaternion, and `rpy_deg`, its alternative; readOrientation() reads either.
 std::array<ScenarioKey, 2> orientationKeys();
 Eigen::Vector4d readOrientation(const TomlSection& table);
 

@@ -18,7 +18,7 @@ using direct::Planes;
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 
-/// The quadrics' error bound: some 16 roundings from φ on, amplified by both eliminations.
+/// Returns the quadrics' error bound: some 16 roundings from φ on, amplified by both eliminations.
 double quadricRounding(const direct::Elimination& elimination) {
   return 16 * eps / (elimination.normals * elimination.independence);
 }

@@ -63,8 +63,8 @@ class DirectKinematics {
   explicit DirectKinematics(const Manipulator& manipulator)
       : solver_(manipulator), of_the_paper_(manipulator.isOfThePaper()) {}
 
-  /// Every real pose for φ, rad: the solutions of (27) with (13), including those that legs cannot reach. Throws
-  /// UndeterminedPose if there are infinitely many, or nearly so; std::invalid_argument unless φ is finite;
+  /// Returns every real pose for φ, rad: the solutions of (27) with (13), including those that legs cannot reach.
+  /// Throws UndeterminedPose if there are infinitely many, or nearly so; std::invalid_argument unless φ is finite;
   /// std::domain_error unless the machine is of the paper's kind.
   PlatformPoses poses(const Vector6d& phi) const;
 
@@ -73,8 +73,9 @@ class DirectKinematics {
   /// is too far away, or no continuation exists.
   std::optional<PlatformPose> track(const Vector6d& phi, const PlatformPose& from) const;
 
-  /// The platform's motion at `pose` for rates and accelerations of φ, rad/s and rad/s², by (24) and (25). Leaves
-  /// displacements, rates and Jacobians in `work`. Throws PoseError like Solver: out of reach, stretched, singular.
+  /// Returns the platform's motion at `pose` for rates and accelerations of φ, rad/s and rad/s², by (24) and (25).
+  /// Leaves displacements, rates and Jacobians in `work`. Throws PoseError like Solver: out of reach, stretched,
+  /// singular.
   Motion<double> motion(const PlatformPose& pose, const Vector6d& phi_dot, const Vector6d& phi_ddot,
                         Workspace<double>& work) const;
 

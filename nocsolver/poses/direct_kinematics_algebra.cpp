@@ -53,7 +53,7 @@ double reduce(Matrix& A, std::array<int, rows>& pivots) {
   return smallest / largest;
 }
 
-/// The columns below `columns` that are no pivots.
+/// Returns the columns below `columns` that are no pivots.
 template <int columns, std::size_t rows>
 std::array<int, columns - static_cast<int>(rows)> others(const std::array<int, rows>& pivots) {
   std::array<int, columns - static_cast<int>(rows)> free{};
@@ -111,7 +111,7 @@ void reduceThird(const QuadraticRows& rows, Ring& ring) {
     ring.third.row(pivots[static_cast<std::size_t>(i)]) << -A.row(i).tail<lower_count>(), -A(i, c);
 }
 
-/// xⱼ times all monomials of degree three, without xⱼ c.
+/// Returns xⱼ times all monomials of degree three, without xⱼ c.
 Eigen::Matrix<double, cubic_count, root_count> timesThird(const Ring& ring, int j) {
   Eigen::Matrix<double, lower_count, root_count> products;
   products.row(0) = Element::Unit(1 + j);
@@ -148,7 +148,7 @@ Element timesC(Ring& ring) {
   return inverse.row(0) * right;
 }
 
-/// The matrix of multiplication by the unit quaternion [w, x, y, z] from the left (sign = 1) or right (−1).
+/// Returns the matrix of multiplication by the unit quaternion [w, x, y, z] from the left (sign = 1) or right (−1).
 Eigen::Matrix4d isoclinic(Eigen::Vector4d q, double sign) {
   q.normalize();
   Eigen::Matrix4d L;

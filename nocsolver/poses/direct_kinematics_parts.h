@@ -89,7 +89,7 @@ class Planes {
   const Vector3d& x(int i) const { return x_[static_cast<std::size_t>(i)]; }  ///< xᵢ, normal to Πᵢ, in B
   const Vector3d& z(int i) const { return z_[static_cast<std::size_t>(i)]; }  ///< zᵢ, in Πᵢ across the axis
 
-  /// xᵢᵀ(p + Qbᵢ − aᵢ), m.
+  /// Returns xᵢᵀ(p + Qbᵢ − aᵢ), m.
   Vector6d mismatch(const PlacedPlatform& pose) const;
 
   /// Bound of the rounding error in `mismatch` at an exact pose, m.
@@ -100,7 +100,7 @@ class Planes {
 
   Elimination eliminateP() const;
 
-  /// The p that fits all planes best for the quaternion q.
+  /// Returns the p that fits all planes best for the quaternion q.
   Vector3d p(const Eigen::Vector4d& q) const;
 
  private:

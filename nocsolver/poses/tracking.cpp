@@ -9,7 +9,7 @@ namespace {
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 
-/// The error in the driven coordinates; angles are reduced to the nearest turn.
+/// Returns the error in the driven coordinates; angles are reduced to the nearest turn.
 Vector6d missing(const Noc<double>& solver, const NocWorkspace<double>& work, const Vector6d& driven) {
   const Vector6d found = solver.angles(work).driven(solver.machine().motors);
   Vector6d out;
@@ -22,7 +22,7 @@ Vector6d missing(const Noc<double>& solver, const NocWorkspace<double>& work, co
   return out;
 }
 
-/// The largest driven coordinate in metres.
+/// Returns the largest driven coordinate in metres.
 double sizeOf(const Noc<double>& solver, const Vector6d& driven) {
   double largest = 0;
   for (int m = 0; m < motor_count; ++m)

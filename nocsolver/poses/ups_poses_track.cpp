@@ -68,7 +68,7 @@ struct Way {
     return legs;
   }
 
-  /// ∂f/∂s
+  /// Returns ∂f/∂s.
   Vec6<Complex> slope(const LegsOver<Complex>& legs, const ComplexPose& pose) const {
     const Mat3<Complex> Q = rotation<Complex>(pose.q);
     Vec6<Complex> out;

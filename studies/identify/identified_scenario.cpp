@@ -78,7 +78,7 @@ class ScenarioMarker {
   std::map<const toml::node*, toml::table> marks_;
 };
 
-/// The array of a body's tensor; empty for other numbers.
+/// Returns the array of a body's tensor; empty for other numbers.
 std::string tensorOf(const MachineNumber& number) {
   return number.group == "inertia" ? number.path.substr(0, number.path.rfind('.')) : "";
 }

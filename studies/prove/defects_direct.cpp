@@ -25,7 +25,7 @@ Defect wrongDirect(const std::string& name, const std::function<Direct(const Sce
   return out;
 }
 
-/// Another mass matrix with the same forces.
+/// Makes the mass matrix wrong, with the right forces.
 Defect wrongMassMatrix(const char* name, const std::function<void(Matrix6d& M)>& change) {
   return wrongDirect(name, [change](const Scenario& s, const Subject& right) -> Direct {
     const auto solver = std::make_shared<const Solver<double>>(*s.manipulator);
@@ -40,7 +40,7 @@ Defect wrongMassMatrix(const char* name, const std::function<void(Matrix6d& M)>&
   });
 }
 
-/// The mass matrix of another machine.
+/// Takes the mass matrix of another machine.
 Defect massMatrixOf(const std::string& name, const ChangeMachine& change) {
   return wrongDirect(name, [change](const Scenario& s, const Subject& right) -> Direct {
     const auto solver = std::make_shared<const Solver<double>>(*s.manipulator);
@@ -54,7 +54,7 @@ Defect massMatrixOf(const std::string& name, const ChangeMachine& change) {
   });
 }
 
-/// The direct dynamics of another machine or load.
+/// Takes the direct dynamics of another machine or load.
 Defect directOf(const std::string& name, const std::function<Subject(const Scenario&)>& other) {
   return wrongDirect(name, [other](const Scenario& s, const Subject&) -> Direct { return other(s).accelerations; });
 }

@@ -63,8 +63,8 @@ double kneeForce(const Leg& leg, double rate) {
   return rightLaw(leg.friction.theta, leg.coulomb.theta, leg.coulomb.smoothing_speed, rate);
 }
 
-/// The knee has_friction against the base instead of the proximal link, with psi + theta. If `acts_so`, the force also
-/// acts on psi.
+/// Returns the error of a knee that rubs against the base instead of the proximal link, with ψ + θ. If `acts_so`, the
+/// force also acts on ψ.
 Excess absoluteKnee(bool acts_so) {
   return [acts_so](const Manipulator& machine, const JointVariables<double>& rates) {
     JointVariables<double> out;

@@ -55,7 +55,7 @@ void stand(const Model& model, LegState<double>& leg) {
   if (carriage) leg.axis = {model.u, -model.u, x_1};
 }
 
-/// A row of the leg's map q̇ = k · v_B, k = n / A.
+/// Returns a row of the leg's map q̇ = k · v_B, k = n / A.
 Vector3d mapOf(const LegState<double>& leg, std::size_t j) { return leg.row[j].n / leg.row[j].A; }
 void setMap(LegState<double>& leg, std::size_t j, const Vector3d& k) {
   leg.row[j].A = 1;

@@ -58,8 +58,8 @@ Defect sharedMotion(const char* name, const ChangeAt& change) {
   });
 }
 
-/// A load through the right rows whose slopes are limited for other components; `map` converts those to the right ones.
-/// A constant load is unchanged.
+/// Leads the load through the right rows, but limits its slopes for other components; `map` converts those to the right
+/// ones. A constant load is unchanged.
 Defect slopesOf(const char* components, const Matrix6d& map) {
   const std::string name = fmt::format("load's slopes limited for {}", components);
   return shared(name, "shared load", [map](const Scenario& s) {

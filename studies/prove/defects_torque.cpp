@@ -63,7 +63,7 @@ Defect withLoad(const char* name, const std::function<void(Load&, const Manipula
           }};
 }
 
-/// The load of another instant.
+/// Takes the load of another instant.
 Defect lateLoad() {
   return wrongTorques("load late by 1e-6 s", "torque", [](const Scenario& s) -> ChangeTorques {
     const auto solver = std::make_shared<const Solver<double>>(*s.manipulator);

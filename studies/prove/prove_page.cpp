@@ -32,7 +32,7 @@ const char* wordOf(const DefectOutcome& outcome) {
 
 const char* signOf(const DefectOutcome& outcome) { return !outcome.shows ? "–" : outcome.caught() ? "✓" : "✗"; }
 
-/// A diamond for the first check that caught it, a tick for the others, so that colour is not essential.
+/// Returns a diamond for the first check that caught it, a tick for the others, so that colour is not essential.
 HtmlValue cell(const DefectOutcome& outcome, const std::string& check) {
   const auto hit = std::find(outcome.caught_by.begin(), outcome.caught_by.end(), check);
   const bool first = hit == outcome.caught_by.begin(), any = hit != outcome.caught_by.end();

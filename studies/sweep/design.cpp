@@ -23,7 +23,7 @@ std::mt19937_64 generatorOf(std::uint64_t seed, std::uint64_t index) {
   return std::mt19937_64(words);
 }
 
-/// The middle of one of 2^53 cells of (0, 1).
+/// Returns the middle of one of 2^53 cells of (0, 1).
 double deviateOf(std::uint64_t bits) { return (static_cast<double>(bits >> 11U) + 0.5) * 0x1p-53; }
 
 double valueOf(const VariedNumber& number, double u) {

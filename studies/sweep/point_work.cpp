@@ -106,7 +106,7 @@ const char* verdictOf(const PoseError& refusal) {
              : "out_of_reach";
 }
 
-/// The name of the margin from margins(); "" for legs without one, which cannot be stretched.
+/// Returns the name of the margin from margins(); "" for legs without one, which cannot be stretched.
 std::string marginName(const Manipulator& manipulator) {
   const LegKind first = manipulator.leg(0).kind;
   for (int i = 1; i < manipulator.legCount(); ++i)

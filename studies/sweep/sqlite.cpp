@@ -18,8 +18,8 @@ constexpr int steps_between = 100;
 /// By Sqlite::Access.
 constexpr int flags[] = {SQLITE_OPEN_READONLY, SQLITE_OPEN_READWRITE, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE};
 
-/// The last error of the system. SQLite reports it for a connection, but not at the end of a transaction; then its
-/// files have it.
+/// Returns the last error of the system. SQLite reports it for a connection, but not at the end of a transaction; then
+/// its files have it.
 int systemError(sqlite3* handle) {
   int error = sqlite3_system_errno(handle);
   sqlite3_file* journal = nullptr;
@@ -30,13 +30,13 @@ int systemError(sqlite3* handle) {
   return error;
 }
 
-/// The system's message; `message` is SQLite's, which gives no cause.
+/// Returns the system's message; `message` is SQLite's, which gives no cause.
 std::string cause(int system_error, const char* message) {
   if (system_error == EFBIG) return "a file may not grow further (ulimit -f)";
   return system_error != 0 ? std::strerror(system_error) : message;
 }
 
-/// A message for the user about errors that the user can fix.
+/// Returns a message for the user about errors that the user can fix.
 std::string inWords(int code, const char* message, int system_error) {
   switch (code) {
     case SQLITE_BUSY:

@@ -67,7 +67,8 @@ class SweepDatabase {
   /// Makes added points durable. Refuses a file that was removed, renamed or replaced meanwhile, after all added points
   /// are in it.
   void commit();
-  /// The last commit: leaves one file that can be moved anywhere. Reads it again and refuses a damaged one.
+  /// Commits for the last time and leaves one file that can be moved anywhere. Reads it again and refuses a damaged
+  /// one.
   void finish();
 
   Sqlite& sqlite() { return sqlite_; }

@@ -60,7 +60,7 @@ struct SweepFile {
 
 /// Throws ScenarioError with its place; unknown content is an error.
 SweepFile readSweepFile(const std::filesystem::path& file);
-/// The same from a text.
+/// Reads the same from a text.
 SweepFile parseSweepFile(const std::string& text, const std::filesystem::path& file);
 
 /// Returns the keys of a sweep's file. The reader uses them and docs/sweep.md describes them.

@@ -22,7 +22,7 @@ class SweepPlan {
 
   const SweepFile& file() const { return file_; }
   const SweepPoints& points() const { return points_; }
-  /// The varied scenario with the sweep's samples; its constant parts are those of every point.
+  /// Returns the varied scenario with the sweep's samples; its constant parts are those of every point.
   const Scenario& base() const { return base_; }
   SweepIdentity identity() const;
 

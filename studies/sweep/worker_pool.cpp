@@ -58,7 +58,7 @@ bool readRange(int from, PointRange& range) {
   return true;
 }
 
-/// A worker's loop until its caller closes the pipe.
+/// Runs a worker's loop until its caller closes the pipe.
 void serve(int from, int to, const PointWork& work) {
   PointRange range;
   while (readRange(from, range))
