@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::size_t longest = 100;
 
-/// Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours, each costing 1.
+/// Returns the optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours cost 1
+/// each.
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) cost[i][0] = i;
@@ -97,7 +98,8 @@ std::size_t characterOf(std::string_view text) {
   return overlong || beyond ? 0 : size;
 }
 
-/// C0, C1, DEL, and the line breaks and direction marks U+200E, U+200F, U+2028 to U+202E and U+2066 to U+2069.
+/// Returns whether the character is C0, C1, DEL, or one of the line breaks and direction marks U+200E, U+200F, U+2028
+/// to U+202E and U+2066 to U+2069.
 bool isControl(std::string_view character) {
   const auto byte = [character](std::size_t k) { return static_cast<unsigned char>(character[k]); };
   if (byte(0) < 0x20 || byte(0) == 0x7F || (byte(0) == 0xC2 && byte(1) < 0xA0)) return true;

@@ -77,7 +77,7 @@ class BoundsScan {
     ++at_;
   }
 
-  /// Characters of keys and values, except dots and strings.
+  /// Returns whether keys and values may have the character outside of strings; dots are not among them.
   static bool isOfWord(char sign) {
     return (sign >= '0' && sign <= '9') || (sign >= 'a' && sign <= 'z') || (sign >= 'A' && sign <= 'Z') ||
            sign == '_' || sign == '-' || sign == '+';

@@ -62,7 +62,7 @@ ModelGraph readFile(const std::filesystem::path& file) {
   return readText(ursula::readText(file, {most_model_bytes, "a model (SDF, MJCF or URDF)"}), file);
 }
 
-/// What is written can be read: numbers that no scenario may have are the file's fault.
+/// Requires that the written scenario can be read. Numbers that no scenario may have are the file's fault.
 void requireReadable(const std::string& scenario) {
   try {
     static_cast<void>(parseScenario(scenario, "scenario"));

@@ -66,7 +66,7 @@ std::string checkTitle(const std::string& name);
 /// Returns the questions, in the order of CheckGroup.
 const std::vector<std::string>& checkGroups();
 
-/// Index into checkGroups(); its size if the catalogue lacks the check.
+/// Returns an index into checkGroups(); its size if the catalogue lacks the check.
 std::size_t groupOf(const std::string& check);
 
 /// Returns "exact", "derived" or "measured".

@@ -58,7 +58,7 @@ struct Load {
   Frame frame = Frame::base;                   ///< frame of force and moment
   std::shared_ptr<const LoadHistory> history;  ///< null if the load is constant
 
-  /// Force and moment at t, in `frame`. Does not allocate.
+  /// Returns force and moment at t, in `frame`. Does not allocate.
   Wrench<double> at(double t) const;
   /// Returns the same in 50 digits; S must be Real50, else it does not link.
   template <class S, class = std::enable_if_t<!std::is_arithmetic_v<S>>>

@@ -60,7 +60,7 @@ struct Leg {
   bool drives(Coordinate coordinate) const;
   /// Returns the axis of the proximal link's frame along its line; for a carriage that is û.
   int proximalLine() const { return rowOf(kind).hasCarriage() ? 1 : 2; }
-  /// Mass centres relative to the links' first ends, in the links' frames.
+  /// These functions return the mass centres relative to the links' first ends, in the links' frames.
   Vector3d proximalCenter() const {
     return proximal.off_line + proximal.center_of_mass * Vector3d::Unit(proximalLine());
   }

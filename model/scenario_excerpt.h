@@ -16,7 +16,7 @@ class PlacedError : public ScenarioError {
   PlacedError(const std::string& what, std::size_t line, std::size_t column)
       : ScenarioError(what), line_(line), column_(column) {}
 
-  /// Several errors as one, a line for each; not empty.
+  /// Returns several errors as one, with a line for each; `errors` is not empty.
   static PlacedError together(const std::vector<PlacedError>& errors);
   /// Adds the excerpt of `text`, the whole file.
   PlacedError in(const std::string& text) const;

@@ -30,7 +30,8 @@ class Trajectory {
   /// machine far from the base's origin loses no digits. Returns null if the trajectory cannot do this; the caller then
   /// uses at(t).p − origin.
   virtual std::unique_ptr<Trajectory> relativeTo(const Vector3d& /*origin*/) const { return nullptr; }
-  /// Instants in s, increasing, at which a higher derivative jumps; an integrator keeps its order only between them.
+  /// Returns the instants in s, increasing, at which a higher derivative jumps. An integrator keeps its order only
+  /// between them.
   virtual const std::vector<double>& knots() const {
     static const std::vector<double> none;
     return none;

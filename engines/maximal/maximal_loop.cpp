@@ -110,7 +110,7 @@ std::pair<int, int> jointAndAxis(const PlacedLeg& leg, int j) {
   return j < first ? std::pair{0, j} : std::pair{1, j - first};
 }
 
-/// Viscous and smoothed Coulomb friction against a joint's rate.
+/// Returns viscous and smoothed Coulomb friction against a joint's rate.
 double friction(double viscous, double coulomb, double speed, double rate) {
   return -viscous * rate - coulomb * std::tanh(rate / speed);
 }

@@ -86,7 +86,7 @@ class SimbodyLoop {
   /// under these torques. The difference is rounding unless Simbody drops multipliers. Only for six_balls.
   Vector6d ownTwistRateError(const Vector6d& torques);
 
-  /// Forces and moments at the joints after accelerate(). Only for six_balls.
+  /// Returns forces and moments at the joints after accelerate(). Only for six_balls.
   Reactions reactions() const;
 
   // --- how a user who has the joints' motion and needs only numbers would call Simbody; six_balls only ---
@@ -94,7 +94,8 @@ class SimbodyLoop {
   /// Fills `out` for openTree() and twistRate(); realizes nothing.
   void coordinates(const Motion<double>& motion, const JointMotion& joint_motion, TreeCoordinates& out) const;
 
-  /// Uses realize(Velocity), calcResidualForceIgnoringConstraints and calcGTranspose; the platform's speeds are [ω; ṗ].
+  /// Computes the open tree by realize(Velocity), calcResidualForceIgnoringConstraints and calcGTranspose; the
+  /// platform's speeds are [ω; ṗ].
   void openTree(const TreeCoordinates& at, OpenTree& out);
 
   /// Returns the platform's twist rate [ω̇; p̈] under efforts, by realize(Acceleration). Ignores accelerations in `at`.
@@ -106,10 +107,10 @@ class SimbodyLoop {
   std::vector<double> state() const;
   /// Sets time and state.
   void setState(double t, const double* x);
-  /// ẋ at (t, x) under `torques`. With six balls the balls' constraints eliminate the legs' coordinates; otherwise it
-  /// uses realize(Acceleration).
+  /// Computes ẋ at (t, x) under `torques`. With six balls the balls' constraints eliminate the legs' coordinates;
+  /// otherwise it uses realize(Acceleration).
   void derivative(double t, const double* x, const Vector6d& torques, double* x_dot);
-  /// Power at the last differentiated state, under its torques.
+  /// Returns the power at the last differentiated state, under its torques.
   Power power() const;
 
   /// What an integration by Simbody's own RungeKuttaMerson took.

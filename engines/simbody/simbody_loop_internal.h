@@ -90,7 +90,8 @@ std::optional<std::array<double, 3>> legGeometry(const Leg& leg, const Matrix3d&
 Matrix3d legJacobian(const LegChain& chain, const SimTK::State& state, const SimTK::MobilizedBody& first,
                      const SimTK::MobilizedBody& second, const Vector3d& from_A, const Vector3d& to_B);
 
-/// Simbody undoes the shift to the body's origin again. Throws std::domain_error if rounding invalidates the result.
+/// Returns the properties about the body's origin. Simbody undoes the shift again; std::domain_error is thrown if
+/// rounding invalidates the result.
 SimTK::MassProperties massProperties(double mass, const Vector3d& center, const Matrix3d& about_center);
 
 /// Returns [moment about P; force] of the load in B for the platform's pose in `state`, realized to Position.

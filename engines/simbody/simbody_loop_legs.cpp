@@ -14,7 +14,7 @@ namespace {
 
 using Geometry = std::optional<std::array<double, 3>>;
 
-/// B relative to A: the parts along u and off the axis; z points off the axis, x = u × z.
+/// B relative to A, with the part off the axis u; z points off the axis, x = u × z.
 struct Place {
   Vector3d u, d, off_axis, z, x;
 
@@ -85,7 +85,8 @@ void SimbodyLoop::Impl::addLeg(int leg) {
   mechanism.joints_of_proximal.push_back(chain.row.joints_of_proximal);
 }
 
-/// A mobilizer's frames on both bodies have the same axes at zero: the joints', and what completes them.
+/// Adds a link with its mobilizer. The mobilizer's frames on both bodies have the same axes at zero: those of the
+/// joints, completed to a frame.
 SimTK::MobilizedBody SimbodyLoop::Impl::addLink(const LegChain& chain, int link, SimTK::MobilizedBody& parent) {
   const auto at = static_cast<std::size_t>(link);
   const int first = chain.firstOf(link);

@@ -11,7 +11,8 @@ namespace ursula::exchange {
 /// Bodies without relative motion, which form one rigid body of the machine.
 struct Group {
   std::vector<std::size_t> bodies;  ///< in the order of the file
-  std::string name;                 ///< the name of the heaviest body
+  /// The name of its heaviest body. Bodies with three or more moving joints go first, as a payload may be heavier.
+  std::string name;
   int line = 0;
   bool fixed = false;
   double mass = 0;

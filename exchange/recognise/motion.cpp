@@ -68,7 +68,8 @@ double reserveOf(const ImportedMachine& machine, const Motion<double>& pose, std
   return least;
 }
 
-/// Rates of the driven coordinates for velocities of P, scaled by `size`, and rotations of the platform.
+/// Returns the rates of the driven coordinates for velocities of P, scaled by `size`, and for rotations of the
+/// platform.
 Matrix6d driveMap(const ImportedMachine& machine, const Motion<double>& pose, double size) {
   Matrix6d out = Matrix6d::Zero();
   int row = 0;
@@ -110,7 +111,7 @@ double reserveOf(const ImportedMachine& machine, const SmallHelix& helix, double
   return least;
 }
 
-/// Many symmetric hexapods are singular where they are level: the motion then starts turned by a few degrees.
+/// Turns the initial pose by a few degrees, because many symmetric hexapods are singular where they are level.
 void turnFromSingular(ImportedMachine& machine, double size) {
   const Motion<double> given = machine.initial;
   for (const double angle : {0.1, -0.1, 0.2, -0.2})

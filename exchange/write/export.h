@@ -34,7 +34,7 @@ struct TreeBody {
   std::vector<std::size_t> joints;    ///< indices into its joints, starting at the parent
 };
 
-/// Limbs of the graph's tree, in the order of their children. Massless bodies count as frames.
+/// Returns the limbs of the graph's tree, in the order of their children. Massless bodies count as frames.
 std::vector<TreeBody> treeBodiesOf(const ModelGraph& graph);
 
 /// Returns the scenario's machine at the first instant of its motion: a base, the legs' links and the platform. A

@@ -43,7 +43,8 @@ class SdfWriter {
   }
 
  private:
-  /// Names of the motors' joints in this file. An axis of a two-axis joint has the name that the import gives it.
+  /// Returns the names of the motors' joints in this file. An axis of a two-axis joint has the name that the import
+  /// gives it.
   std::string motorNames() {
     constexpr const char* axes[] = {"/axis", "/axis2"};
     std::string out;

@@ -15,14 +15,14 @@ constexpr const char* own_namespace = "urn:ursula";
 
 /// Returns the shortest digits that parse to the same number; a zero has no sign.
 std::string numberText(double value);
-/// Numbers separated by spaces. An entry within rounding of zero, relative to the others, becomes zero.
+/// Returns numbers separated by spaces. An entry within rounding of zero, relative to the others, becomes zero.
 std::string numberText(const Vector3d& values);
 /// Returns [w, x, y, z], with w not negative.
 std::string quaternionText(const Matrix3d& rotation);
-/// Roll, pitch, yaw, rad: rotations about the fixed x, y and z, in this order. It is exact to rounding even at a pitch
-/// of ±π/2.
+/// Returns roll, pitch, yaw, rad: rotations about the fixed x, y and z, in this order. It is exact to rounding even at
+/// a pitch of ±π/2.
 Vector3d rollPitchYaw(const Matrix3d& rotation);
-/// Position, then roll, pitch and yaw.
+/// Returns the position, then roll, pitch and yaw.
 std::string poseText(const Eigen::Isometry3d& pose);
 /// Returns a frame midway between two points, with z from the first to the second.
 Eigen::Isometry3d between(const Vector3d& from, const Vector3d& to);

@@ -11,7 +11,7 @@ namespace ursula {
 // Where the parts of a leg are, for engines and for other programs' files. nocsolver/ has formulas of its own and never
 // sees this folder.
 
-/// F̂ = [x̂, û, ẑ] of docs/legs.md, with a horizontal x̂.
+/// Returns F̂ = [x̂, û, ẑ] of docs/legs.md, with a horizontal x̂.
 Matrix3d fixedFrame(const Vector3d& base_axis);
 
 /// A joint of one axis. At zero its own frame is turned by `turn` and lies at `at` in the frame before it. The second

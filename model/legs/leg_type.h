@@ -84,7 +84,7 @@ LinkLengths lengthsAtStroke(double distance, double share, double ratio);
 /// from û.
 std::array<double, 2> directionOf(const Matrix3d& frame, const Vector3d& AB);
 
-/// 1 or −1, the sign that selects the leg's branch.
+/// Returns 1 or −1, the sign that selects the leg's branch.
 inline double sideOf(const Leg& leg) { return leg.knee == Knee::positive ? 1 : -1; }
 
 /// Turns z to û, so that the second angle of a universal joint counts from û, and half a turn about x.

@@ -29,8 +29,8 @@ S withoutTurns(double angle) {
   return S(Real50(angle - turn * round(Real50(angle / turn))));
 }
 
-/// Coefficients aₖ t_fᵏ of the quintic in s = t / t_f; with this scaling no power of t_f can overflow or underflow.
-/// They follow from the values, rates and accelerations at both ends (paper, eq. 51).
+/// Returns the coefficients aₖ t_fᵏ of the quintic in s = t / t_f; with this scaling no power of t_f can overflow or
+/// underflow. They follow from the values, rates and accelerations at both ends (paper, eq. 51).
 template <class S>
 std::array<S, 6> quinticCoefficients(const HelixParameters& helix) {
   const S duration(helix.duration);
@@ -142,7 +142,7 @@ void validate(const HelixParameters& helix) {
   require(helix.pitch != 0, "pitch", helix.pitch, "not 0");
 }
 
-/// Finite parameters can still overflow, for instance t_f = 1e-200 s in β̈.
+/// Requires a finite motion, because finite parameters can still overflow, for instance t_f = 1e-200 s in β̈.
 void validateRange(const HelixParameters& helix, const HelixKernel<double>& kernel) {
   for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     const Motion<double> motion = kernel.at(share * helix.duration);

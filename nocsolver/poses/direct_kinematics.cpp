@@ -46,7 +46,7 @@ Eigen::Vector4d withPositiveW(const Eigen::Vector4d& q) {
 
 double widened(double worst, double error) { return error <= worst ? worst : error; }  // keeps a NaN
 
-/// One leg of the pose; returns the largest mismatch in its three equations, m.
+/// Sets one leg of the pose. Returns the largest mismatch in its three equations, m.
 double readLeg(const LegModel<double>& leg, const Vector3d& AB, const Vector3d& x, const Vector3d& z, LegAtPose& out) {
   const double k_x = x.dot(AB), k_y = leg.u.dot(AB), r = z.dot(AB);  // second member of (13)
   const double q2 = AB.squaredNorm(), sum = leg.l + leg.s, difference = leg.l - leg.s, two_ls = 2 * leg.l * leg.s;
@@ -86,7 +86,7 @@ PlatformPose makePose(const MachineParameters<double>& model, const Planes& plan
   return pose;
 }
 
-/// Newton's method while it reduces the mismatch.
+/// Applies Newton's method while it reduces the mismatch.
 void polish(const Planes& planes, PlacedPlatform& pose) {
   Vector6d mismatch = planes.mismatch(pose);
   for (int i = 0; i < 3 && !(mismatch.cwiseAbs().maxCoeff() <= planes.rounding(pose)); ++i) {

@@ -30,8 +30,8 @@ struct Ring {
   double pivot = 1;
 };
 
-/// Gauss–Jordan with complete pivoting in the first `columns` columns. Row r then has 1 in column pivots[r] and 0 in
-/// the other pivots'. Returns the ratio of smallest to largest pivot.
+/// Reduces A by Gauss–Jordan with complete pivoting in the first `columns` columns. Row r then has 1 in column
+/// pivots[r] and 0 in the other pivots'. Returns the ratio of smallest to largest pivot.
 template <int rows, int columns, class Matrix>
 double reduce(Matrix& A, std::array<int, rows>& pivots) {
   double smallest = 0, largest = 0;

@@ -59,8 +59,8 @@ double residual(const ThreeQuadrics& quadrics, const Eigen::Matrix<Scalar, 4, 1>
   return worst;
 }
 
-/// `rounding` is the error bound of the quadrics, so smaller values count as 0. Tries charts until all eight roots are
-/// counted. Does not allocate.
+/// Finds the roots. `rounding` is the error bound of the quadrics, so smaller values count as 0. Tries charts until all
+/// eight roots are counted. Does not allocate.
 Roots findRoots(const ThreeQuadrics& quadrics, double rounding);
 
 // The six planes Πᵢ in which the motors hold the points Bᵢ. Internal to nocsolver/direct_kinematics*.
@@ -71,7 +71,7 @@ struct PlacedPlatform {
   Eigen::Vector4d q;  ///< unit, [w, x, y, z]
 };
 
-/// Rotation matrix of a unit quaternion [w, x, y, z].
+/// Returns the rotation matrix of a unit quaternion [w, x, y, z].
 Matrix3d rotation(const Eigen::Vector4d& q);
 
 /// The three quadrics that remain of the planes without p, and the quality of the elimination.
@@ -83,7 +83,7 @@ struct Elimination {
 
 class Planes {
  public:
-  /// The planes for finite φ, rad.
+  /// Places the planes for finite φ, rad.
   Planes(const MachineParameters<double>& model, const Vector6d& phi);
 
   const Vector3d& x(int i) const { return x_[static_cast<std::size_t>(i)]; }  ///< xᵢ, normal to Πᵢ, in B
@@ -92,7 +92,7 @@ class Planes {
   /// Returns xᵢᵀ(p + Qbᵢ − aᵢ), m.
   Vector6d mismatch(const PlacedPlatform& pose) const;
 
-  /// Bound of the rounding error in `mismatch` at an exact pose, m.
+  /// Returns a bound of the rounding error in `mismatch` at an exact pose, m.
   double rounding(const PlacedPlatform& pose) const;
 
   /// Takes one Newton step on the mismatch; returns its size, m. `orientation` becomes the sign of det B.

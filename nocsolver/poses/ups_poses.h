@@ -25,10 +25,10 @@ struct UpsPoses {
   bool complete() const { return counted + at_infinity == 40; }
 };
 
-/// Direct kinematics of a general Stewart–Gough platform: every pose with |p + Q bᵢ − aᵢ| = dᵢ. Base points aᵢ in B,
-/// platform points bᵢ in M, lengths dᵢ, all in m. docs/direct_kinematics.md explains the method. Allocates. Throws
-/// UndeterminedPose if there are infinitely many, or nearly so; std::invalid_argument unless all numbers are finite and
-/// no length is negative.
+/// Solves the direct kinematics of a general Stewart–Gough platform: returns every pose with |p + Q bᵢ − aᵢ| = dᵢ. Base
+/// points aᵢ in B, platform points bᵢ in M, lengths dᵢ, all in m. docs/direct_kinematics.md explains the method.
+/// Allocates. Throws UndeterminedPose if there are infinitely many, or nearly so; std::invalid_argument unless all
+/// numbers are finite and no length is negative.
 UpsPoses upsPoses(const std::array<Vector3d, 6>& base_points, const std::array<Vector3d, 6>& platform_points,
                   const Vector6d& lengths);
 

@@ -33,7 +33,7 @@ using Quadric = std::vector<Term>;
 
 int q(int i, int j) { return at_Q + 3 * i + j; }
 
-/// Products of the rows with each other (transposed: of the columns), minus h² on the diagonal.
+/// Adds the products of the rows with each other (transposed: of the columns), minus h² on the diagonal.
 void addOrthogonality(std::vector<Quadric>& all, bool transposed) {
   const auto at = [&](int i, int j) { return transposed ? q(j, i) : q(i, j); };
   for (int i = 0; i < 3; ++i)
@@ -46,7 +46,7 @@ void addOrthogonality(std::vector<Quadric>& all, bool transposed) {
     }
 }
 
-/// Cofactor (i, j), and column i crossed with p.
+/// Adds each cofactor (i, j), and each column i crossed with p.
 void addCrosses(std::vector<Quadric>& all) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {

@@ -12,9 +12,9 @@ namespace ursula::identification {
 namespace {
 
 constexpr std::size_t fewest_rows = 16, most_gap = 100'000, head_size = 1000;
-/// Gaps of so many rows are filled by a cubic through two rows on either side, because links drop single rows often.
+/// A cubic through two rows on either side fills gaps of up to this many rows, because links drop single rows often.
 constexpr std::size_t most_filled = 3;
-/// Rows are skipped up to this step, s. A motion of some hertz needs it.
+/// Rows are skipped up to this step, s, because a motion of some hertz needs it.
 constexpr double coarsest = 0.01;
 const double turn = 2 * std::acos(-1.0);
 

@@ -47,7 +47,8 @@ Judgement judge(const SquareRoot& model, const Comparison& comparison, const std
 Eigen::MatrixXd inputUncertainty(const Comparison& comparison, const ManipulatorParameters& machine,
                                  const NumberTolerances& tolerances);
 
-/// Finds saturation, and marks its rows as missing. Also finds quantisation that is coarser than the noise.
+/// Finds saturation, and marks its rows as missing. It also finds quantisation that is coarser than the noise.
+/// Efforts of the other sign are found by findMistakes().
 void findSigns(MeasuredLog& log, const Motors& motors, IdentifyResult& out);
 
 /// Finds efforts of exchanged motors, of the other sign, or in other units than the model's.
