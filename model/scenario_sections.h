@@ -23,8 +23,8 @@ CsvTable readCsvBeside(const TomlSection& table, const std::string& key);
 /// Finds the value that `refusal` names in the document or in manipulator.leg_defaults, or the nearest enclosing table.
 PlacedError located(const InvalidParameter& refusal, const TomlSection& document);
 
-/// Adds to the first error that a reader met the other wrong keys, types and bounds of the whole document, at most ten
-/// in all and in the order of `text`, the file.
+/// Adds further errors to the first one that a reader met: other wrong keys, types and bounds of the whole document.
+/// There are at most ten in all, in the order of `text`, which is the file.
 PlacedError withOthers(const PlacedError& first, const TomlSection& document, const std::string& text);
 
 }  // namespace ursula

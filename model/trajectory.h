@@ -26,9 +26,9 @@ class Trajectory {
   Motion<S> at(const S& t) const;
   /// Returns null if the motion is known in doubles only; differences of doubles then check its derivatives.
   virtual const ExactTrajectory* exact() const { return nullptr; }
-  /// Returns the same motion with P's position relative to `origin` (m, in B), subtracted before rounding, so that a
-  /// machine far from the base's origin loses no digits. Returns null if the trajectory cannot do this; the caller then
-  /// uses at(t).p − origin.
+  /// Returns the same motion with P's position relative to `origin` (m, in B). The origin is subtracted before
+  /// rounding, so a machine far from the base's origin loses no digits. Returns null if the trajectory cannot do this;
+  /// the caller then uses at(t).p − origin.
   virtual std::unique_ptr<Trajectory> relativeTo(const Vector3d& /*origin*/) const { return nullptr; }
   /// Returns the instants in s, increasing, at which a higher derivative jumps. An integrator keeps its order only
   /// between them.

@@ -1,7 +1,6 @@
-// The legs in Simbody: bodies and joints by their description in model/legs/, the coordinates for a position of B, and
-// the velocity of B by the coordinates' rates. Universal turns about its x, then y; Pin about z; Slider moves along x.
-// Links' frames have their origins at the links' first ends, so the raw inertias apply unchanged. Coordinates come from
-// vector geometry of Simbody's own, without the solver.
+// This file has the legs in Simbody. model/legs/ describes their bodies and joints. Their coordinates for a position of
+// B come from vector geometry of Simbody's own, without the solver. Universal turns about its x, then y; Pin about z;
+// Slider moves along x. Links' frames have their origins at the links' first ends, so the raw inertias apply unchanged.
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -32,9 +32,10 @@ struct UpsPoses {
 UpsPoses upsPoses(const std::array<Vector3d, 6>& base_points, const std::array<Vector3d, 6>& platform_points,
                   const Vector6d& lengths);
 
-/// Returns whether each of six legs has one motor that, while it holds, keeps the leg's platform point on a sphere: d
-/// of UPS (about the base point, of radius d), phi of RUS (about the crank's end), d of PUS (about the carriage; both
-/// of the rod's length). Legs may be of different kinds; upsPoses() applies to these machines.
+/// Returns whether each of six legs has one motor that, while it holds, keeps the leg's platform point on a sphere.
+/// That is d of UPS (about the base point, of radius d), phi of RUS (about the crank's end), and d of PUS (about the
+/// carriage). The last two have the rod's length as radius. Legs may be of different kinds; upsPoses() applies to these
+/// machines.
 bool tipsAreOnSpheres(const Manipulator& machine);
 /// Returns every pose of such a machine for its driven coordinates, rad or m, in leg order. Throws as above.
 UpsPoses upsPoses(const Manipulator& machine, const Vector6d& driven);

@@ -21,7 +21,7 @@ struct Kernel {
   /// Applies `weights` at the rows `centers` of `x`, each at least `half` rows from its ends.
   static Eigen::MatrixXd apply(const Eigen::VectorXd& weights, const Eigen::MatrixXd& x,
                                const std::vector<Eigen::Index>& centers);
-  /// Returns the largest relative error of a signal well below the cut-off, because the window ends: the integral of
+  /// Returns the largest relative error of a signal well below the cut-off, because the window ends. The integral of
   /// the kernel beyond w deviations is at most 2 exp(−w²/2) / (π w²).
   static double passError();
   /// Returns the rows that a kernel needs on either side.
