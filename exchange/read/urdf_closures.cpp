@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "base/text.h"
@@ -149,13 +150,15 @@ class Closer {
     takeMotors(text["name_mot"]);
   }
 
-  /// Marks the driven joints. A single word is a part of the motors' names; in a list each word is a full name.
+  /// Marks the driven joints. A single word is a part of the motors' names; in a list each word is a full name, and the
+  /// list is the motors' order.
   void takeMotors(const std::vector<std::string>& motors) {
     for (const std::string& motor : motors) {
       bool found = false;
       for (GraphJoint& joint : graph_.joints) {
         const bool is_meant = motors.size() > 1 ? joint.name == motor : joint.name.find(motor) != std::string::npos;
         if (joint.closure || motor.empty() || !is_meant) continue;
+        if (motors.size() > 1 && !joint.driven) graph_.motors.push_back(joint.name);
         joint.driven = found = true;
       }
       if (!found) throw ImportError(fmt::format("robot.yaml: name_mot '{}': no joint has that name", shown(motor)));
@@ -164,11 +167,11 @@ class Closer {
 
   /// Joins the links closing_NAME_1 and closing_NAME_2 by a ball.
   void named() {
-    std::map<std::string, int> first;
+    std::set<std::string> first;
     for (const auto& [name, index] : links_)
       if (name.rfind("closing_", 0) == 0 && name.size() > 10 && name.compare(name.size() - 2, 2, "_1") == 0)
-        first.emplace(name.substr(0, name.size() - 2), 1);
-    for (const auto& [name, count] : first)
+        first.insert(name.substr(0, name.size() - 2));
+    for (const std::string& name : first)
       if (links_.count(name + "_2") != 0) pair(name + "_1", name + "_2", JointKind::ball, "by their names");
   }
 

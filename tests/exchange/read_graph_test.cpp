@@ -144,6 +144,10 @@ TEST(ReadUrdf, robotYamlNamesPairsAndMotors) {
   EXPECT_TRUE(graph.joints[2].closure);
   EXPECT_EQ(graph.joints[2].kind, JointKind::ball);
   EXPECT_EQ(graph.joints[2].centre_of_child.z() - graph.joints[2].centre.z(), 0.5);
+  EXPECT_THAT(graph.motors, testing::IsEmpty()) << "a part of names gives no order";
+
+  std::ofstream(folder / "robot.yaml") << "name_mot: [free1, mot1]\n";
+  EXPECT_THAT(readModel(folder / "r.urdf").motors, testing::ElementsAre("free1", "mot1"));
 }
 
 }  // namespace
