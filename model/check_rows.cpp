@@ -102,8 +102,8 @@ std::vector<CheckRow> checksOfTorques() {
        "The twin's rounding, measured in other frames.",
        "If torque.pointwise passes, this program uses Simbody wrongly: report it with the scenario."},
       {"torque.maximal", "N m", N::any_instant, G::motors, StandsOn::engine, "Maximal coordinates",
-       "The equations of Newton and Euler for 13 free bodies, with 72 constraints and multipliers, need the same "
-       "efforts.",
+       "The equations of Newton and Euler for free bodies, two of each leg and the platform, with 12 constraints and "
+       "multipliers for each leg, need the same efforts.",
        "parameters that this motion does not excite", LimitFrom::measured,
        "The rounding of maximal coordinates, measured in other frames.",
        "If all other formulations agree, this formulation is wrong: the finding 'odd one out of the formulations' "
@@ -148,7 +148,7 @@ std::vector<CheckRow> checksOfTorques() {
        "Twice the solver's own rounding, for the motion and its reverse.",
        "A term is odd in the velocities: a wrong sign in the Coriolis terms, or friction that the scenario lacks."},
       {"reactions.pointwise", "N", N::own_reactions, G::motors, StandsOn::engine, "Joint reactions",
-       "Forces and moments at 18 joints equal those of Simbody.", "", LimitFrom::measured,
+       "Forces and moments at the three joints of each leg equal those of Simbody.", "", LimitFrom::measured,
        "The noise of the efforts over the machine's length, times κ(B), plus that of the accelerations times the "
        "largest mass.",
        "If the efforts pass, check the point and the frame of the named joint's reaction."},
