@@ -58,12 +58,13 @@ report::Plot plotOf(const SweepSummary& summary, const Scatter& scatter) {
   const std::vector<std::size_t> rows = report::ascending(scatter.x);
   report::Plot plot;
   plot.title = titleOf(output) + " over " + summary.parameters[scatter.parameter].key;
+  plot.group = report::PlotGroup::relations;
   plot.x_label = summary.parameters[scatter.parameter].key;
   plot.y_label = titleOf(output) + (unit.empty() ? "" : " (" + unit + ")");
   plot.log_y = output.histogram.log;
   plot.rows = rows.size();
   plot.x = report::picked(scatter.x, rows);
-  plot.lines = {{"", unit, 0, report::Stroke::points, report::picked(scatter.y, rows)}};
+  plot.lines = {{titleOf(output), unit, 0, report::Stroke::points, report::picked(scatter.y, rows)}};
   plot.words = wordsOf(scatter, output.relations[scatter.parameter]);
   return plot;
 }
