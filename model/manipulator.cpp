@@ -75,7 +75,7 @@ void requireLink(const std::string& place, const Link& link, int line) {
   requireInertia(place + ".inertia", link.inertia, line);
 }
 
-void requireFriction(const std::string& place, const JointFriction& friction) {
+void requireNoneNegative(const std::string& place, const JointFriction& friction) {
   for (std::size_t k = 0; k < coordinate_count; ++k) {
     const auto coordinate = static_cast<Coordinate>(k);
     requireNotNegative(place + "." + nameOf(coordinate), friction.on(coordinate));
@@ -104,7 +104,7 @@ void requireSpin(const std::string& place, const Leg& leg) {
 }
 
 void requireRotors(const std::string& place, const Leg& leg) {
-  requireFriction(place + ".rotor_inertia", leg.rotor_inertia);
+  requireNoneNegative(place + ".rotor_inertia", leg.rotor_inertia);
   for (std::size_t k = 0; k < coordinate_count; ++k) {
     const auto coordinate = static_cast<Coordinate>(k);
     const double rotor = leg.rotor_inertia.on(coordinate);
@@ -131,8 +131,8 @@ void requireLeg(const std::string& place, const Leg& leg) {
   requireLink(place + ".distal", leg.distal, 2);
   requireSpin(place, leg);
   requireRotors(place, leg);
-  requireFriction(place + ".friction", leg.friction);
-  requireFriction(place + ".coulomb", leg.coulomb);
+  requireNoneNegative(place + ".friction", leg.friction);
+  requireNoneNegative(place + ".coulomb", leg.coulomb);
   requirePositive(place + ".coulomb.smoothing_speed", leg.coulomb.smoothing_speed);
   requirePositive(place + ".coulomb.smoothing_speed", leg.coulomb.sliding_speed);
 }

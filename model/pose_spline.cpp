@@ -7,6 +7,7 @@
 
 #include "base/quintic_spline.h"
 #include "base/real50.h"
+#include "base/scalar.h"
 #include "model/exact_trajectory.h"
 
 namespace ursula {
@@ -73,7 +74,7 @@ void validate(const std::vector<TimedPose>& poses, const PoseSplineOptions& opti
 }
 
 void requireClearWay(const std::vector<PoseKnot>& knots, const RefusePose& refuse) {
-  const double degrees = 180 / std::acos(-1.0), most = 170;
+  const double degrees = degrees_per_radian, most = 170;
   for (std::size_t i = 1; i < knots.size(); ++i) {
     const auto cosine = knots[i].value.tail<4>().dot(knots[i - 1].value.tail<4>()).convert_to<double>();
     const double angle = 2 * std::acos(std::min(cosine, 1.0)) * degrees;

@@ -35,7 +35,7 @@ class SimbodyStepped : public SteppedLoop {
  public:
   SimbodyStepped(const Manipulator& manipulator, std::shared_ptr<const Load> load, const Rigidity& rigidity)
       : manipulator_(manipulator),
-        loop_(manipulator, SimbodyLoop::Topology::six_balls, std::move(load)),
+        loop_(manipulator, SimbodyLoop::Topology::ball_per_leg, std::move(load)),
         step_(rigidity.step),
         accuracy_(rigidity.settings.at(0).second) {}
 
@@ -79,7 +79,9 @@ class SimbodyStepped : public SteppedLoop {
 class SimbodyCalls : public LoopEngine {
  public:
   SimbodyCalls(const Manipulator& manipulator, std::shared_ptr<const Load> load)
-      : LoopEngine(manipulator), load_(load), loop_(manipulator, SimbodyLoop::Topology::six_balls, std::move(load)) {}
+      : LoopEngine(manipulator),
+        load_(load),
+        loop_(manipulator, SimbodyLoop::Topology::ball_per_leg, std::move(load)) {}
 
   const PlacedTree& tree(const Motion<double>& motion, Bias bias) override {
     JointMotion joints = loop_.place(motion);

@@ -43,7 +43,7 @@ std::array<double, 3> SimbodyLoop::Impl::legGeometry(int leg, const Motion<doubl
 void SimbodyLoop::Impl::setPlatformPose(const Motion<double>& motion) {
   const SimTK::Transform X_GB(toSimTK(motion.Q), toSimTK(motion.p));
   placed_jacobian.reset();
-  if (topology == Topology::six_balls) {  // the platform is on the ground
+  if (topology == Topology::ball_per_leg) {  // the platform is on the ground
     mechanism.platform.setQToFitTransform(
         state, ~mechanism.platform.getDefaultInboardFrame() * X_GB * mechanism.platform.getDefaultOutboardFrame());
     return;

@@ -21,7 +21,7 @@ namespace ursula {
 class SimbodyLoop {
  public:
   enum class Topology {
-    six_balls,           ///< free platform, one ball per leg; with six legs 24 − 18 = 6 degrees of freedom
+    ball_per_leg,        ///< free platform, one ball per leg; with six legs 24 − 18 = 6 degrees of freedom
     tree_through_leg_1,  ///< platform on leg 1, balls at the other legs; with six legs 21 − 15 = 6
   };
 
@@ -43,7 +43,7 @@ class SimbodyLoop {
   using TorqueHistory = std::function<Vector6d(double t)>;
 
   /// `load` acts on the platform; null for no load.
-  explicit SimbodyLoop(const Manipulator& manipulator, Topology topology = Topology::six_balls,
+  explicit SimbodyLoop(const Manipulator& manipulator, Topology topology = Topology::ball_per_leg,
                        std::shared_ptr<const Load> load = nullptr);
   ~SimbodyLoop();
   SimbodyLoop(SimbodyLoop&&) noexcept;
@@ -64,7 +64,7 @@ class SimbodyLoop {
   Motion<double> platform() const;  ///< its accelerations are the last placed or computed ones
   Closure closure() const;
   /// Returns the largest acceleration, m/s², at which a ball's gap opens after accelerate(): rounding only. Only for
-  /// six_balls.
+  /// ball_per_leg.
   double gapAcceleration() const;
   Energy energy() const;
 
@@ -77,19 +77,19 @@ class SimbodyLoop {
   /// coordinates with its constraint Jacobian.
   Vector6d inverseDynamics() const;
 
-  /// Computes the accelerations of platform and joints under these torques. With six balls it eliminates the legs'
-  /// coordinates from Simbody's mass matrix and forces. Otherwise it uses realize(Acceleration), which drops
+  /// Computes the accelerations of platform and joints under these torques. With a ball at each leg it eliminates the
+  /// legs' coordinates from Simbody's mass matrix and forces. Otherwise it uses realize(Acceleration), which drops
   /// multipliers if links are nearly massless.
   void accelerate(const Vector6d& torques);
 
   /// Returns the platform's twist rate [ω̇; p̈] by Simbody's own realize(Acceleration) minus that by accelerate(),
-  /// under these torques. The difference is rounding unless Simbody drops multipliers. Only for six_balls.
+  /// under these torques. The difference is rounding unless Simbody drops multipliers. Only for ball_per_leg.
   Vector6d ownTwistRateError(const Vector6d& torques);
 
-  /// Returns forces and moments at the joints after accelerate(). Only for six_balls.
+  /// Returns forces and moments at the joints after accelerate(). Only for ball_per_leg.
   Reactions reactions() const;
 
-  // --- how a user who has the joints' motion and needs only numbers would call Simbody; six_balls only ---
+  // --- how a user who has the joints' motion and needs only numbers would call Simbody; ball_per_leg only ---
 
   /// Fills `out` for openTree() and twistRate(); realizes nothing.
   void coordinates(const Motion<double>& motion, const JointMotion& joint_motion, TreeCoordinates& out) const;
@@ -107,8 +107,8 @@ class SimbodyLoop {
   std::vector<double> state() const;
   /// Sets time and state.
   void setState(double t, const double* x);
-  /// Computes ẋ at (t, x) under `torques`. With six balls the balls' constraints eliminate the legs' coordinates;
-  /// otherwise it uses realize(Acceleration).
+  /// Computes ẋ at (t, x) under `torques`. With a ball at each leg the balls' constraints eliminate the legs'
+  /// coordinates; otherwise it uses realize(Acceleration).
   void derivative(double t, const double* x, const Vector6d& torques, double* x_dot);
   /// Returns the power at the last differentiated state, under its torques.
   Power power() const;

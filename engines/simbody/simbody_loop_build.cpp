@@ -105,7 +105,7 @@ SimbodyLoop::Impl::Impl(const Manipulator& manipulator, Topology topology_, std:
   state = system.realizeTopology();
   system.realizeModel(state);
   u_dot = SimTK::Vector(state.getNU(), 0.0);
-  if (topology != Topology::six_balls) return;
+  if (topology != Topology::ball_per_leg) return;
   open = state;
   for (const SimTK::Constraint::Ball& ball : mechanism.balls) ball.disable(open);
   system.realizeModel(open);

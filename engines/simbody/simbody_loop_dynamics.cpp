@@ -114,7 +114,7 @@ Vector6d SimbodyLoop::inverseDynamics() const {
 
 void SimbodyLoop::accelerate(const Vector6d& torques) {
   Impl& loop = *impl_;
-  if (loop.topology == Topology::six_balls) {
+  if (loop.topology == Topology::ball_per_leg) {
     loop.eliminate(torques);
     return;
   }

@@ -123,7 +123,7 @@ struct SimbodyLoop::Impl {
 
   int legCount() const { return parameters.legCount(); }
   /// Returns the state that derivative() realizes.
-  const SimTK::State& differentiated() const { return topology == Topology::six_balls ? open : state; }
+  const SimTK::State& differentiated() const { return topology == Topology::ball_per_leg ? open : state; }
   /// Returns the index in u of a leg's joint.
   int indexOf(int joint, int leg) const;
   int indexOf(const Mechanism::Rotor& rotor) const { return rotor.wheel.getFirstUIndex(state); }

@@ -8,6 +8,8 @@
 
 #include "exchange/read/xml.h"
 
+#include "base/scalar.h"
+
 namespace ursula::exchange {
 
 /// The settings of <compiler> for reading numbers.
@@ -21,7 +23,7 @@ struct MjcfCompiler {
   double least_mass = 0, least_inertia = 0, total_mass = -1;
 
   void read(const Element& compiler);
-  double angle(double value) const { return degrees ? value * 3.14159265358979323846 / 180 : value; }
+  double angle(double value) const { return degrees ? value * pi / 180 : value; }
 };
 
 /// Classes of <default>, each with everything that it inherits: class, element, attribute.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/scalar.h"
 #include "base/text.h"
 
 namespace ursula::exchange {
@@ -159,7 +160,7 @@ Eigen::Isometry3d sdfPoseOf(const Element& element) {
   }
   Vector3d angles(v[3], v[4], v[5]);
   const std::string degrees = attribute(*pose, "degrees");
-  if (!degrees.empty() && truthOf(*pose, degrees, "degrees")) angles *= 3.14159265358979323846 / 180;
+  if (!degrees.empty() && truthOf(*pose, degrees, "degrees")) angles *= pi / 180;
   return placed(position, rollPitchYaw(angles));
 }
 

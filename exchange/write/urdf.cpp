@@ -55,7 +55,7 @@ class UrdfWriter {
   }
 
   static void addOrigin(const Xml& xml, const Eigen::Isometry3d& frame) {
-    xml.add("origin").with("xyz", Vector3d(frame.translation())).with("rpy", rollPitchYaw(frame.linear()));
+    xml.add("origin").with("xyz", Vector3d(frame.translation())).with("rpy", rollPitchYawOf(frame.linear()));
   }
 
   Xml addJoint(const std::string& name, const char* type, const std::string& parent, const std::string& child,

@@ -29,7 +29,7 @@ std::string quaternionText(const Matrix3d& rotation) {
 }
 
 /// Removes the yaw before it reads the roll. If rounding determines the yaw, the roll compensates for it.
-Vector3d rollPitchYaw(const Matrix3d& rotation) {
+Vector3d rollPitchYawOf(const Matrix3d& rotation) {
   const double yaw = std::atan2(rotation(1, 0), rotation(0, 0)), c = std::cos(yaw), s = std::sin(yaw);
   const double pitch = std::atan2(-rotation(2, 0), c * rotation(0, 0) + s * rotation(1, 0));
   const double roll = std::atan2(s * rotation(0, 2) - c * rotation(1, 2), c * rotation(1, 1) - s * rotation(0, 1));
@@ -37,7 +37,7 @@ Vector3d rollPitchYaw(const Matrix3d& rotation) {
 }
 
 std::string poseText(const Eigen::Isometry3d& pose) {
-  return numberText(Vector3d(pose.translation())) + " " + numberText(rollPitchYaw(pose.linear()));
+  return numberText(Vector3d(pose.translation())) + " " + numberText(rollPitchYawOf(pose.linear()));
 }
 
 Eigen::Isometry3d between(const Vector3d& from, const Vector3d& to) {

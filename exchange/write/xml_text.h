@@ -21,7 +21,7 @@ std::string numberText(const Vector3d& values);
 std::string quaternionText(const Matrix3d& rotation);
 /// Returns roll, pitch, yaw, rad: rotations about the fixed x, y and z, in this order. It is exact to rounding even at
 /// a pitch of ±π/2.
-Vector3d rollPitchYaw(const Matrix3d& rotation);
+Vector3d rollPitchYawOf(const Matrix3d& rotation);
 /// Returns the position, then roll, pitch and yaw.
 std::string poseText(const Eigen::Isometry3d& pose);
 /// Returns a frame midway between two points, with z from the first to the second.

@@ -15,9 +15,8 @@ Vector6d missing(const Noc<double>& solver, const NocWorkspace<double>& work, co
   Vector6d out;
   for (int m = 0; m < motor_count; ++m) {
     const double difference = driven(m) - found(m);
-    out(m) = solver.machine().motors[static_cast<std::size_t>(m)].slides()
-                 ? difference
-                 : std::remainder(difference, 2 * std::acos(-1.0));
+    out(m) =
+        solver.machine().motors[static_cast<std::size_t>(m)].slides() ? difference : std::remainder(difference, 2 * pi);
   }
   return out;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/csv.h"
+#include "base/scalar.h"
 #include "base/text.h"
 #include "validation/subject/subject.h"
 
@@ -90,8 +91,7 @@ void ModelledLog::refuse(const MeasuredLog& log, Eigen::Index at) const {
   };
   const Motors& motors = scenario_.manipulator->motors();
   MeasuredState scaled = state;
-  for (int k = 0; k < motor_count && !has_poses_; ++k)
-    scaled.value(k) *= motors[k].slides() ? 1e-3 : std::acos(-1.0) / 180;
+  for (int k = 0; k < motor_count && !has_poses_; ++k) scaled.value(k) *= motors[k].slides() ? 1e-3 : degree;
   tryState(scaled, "; they can be reached as degrees and millimetres: --map phi_1_deg=COLUMN says so");
   for (int k = 0; k < motor_count && at == 0 && !has_poses_; ++k)
     for (int j = k + 1; j < motor_count; ++j) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/scalar.h"
+
 namespace ursula::identification {
 namespace {
 
@@ -176,8 +178,7 @@ Eigen::Matrix3d FilteredLog::Lines::covariance(double later) const {
   for (std::size_t k = 0; k < omega.size(); ++k)
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b)
-        out(a, b) +=
-            weight[k] * std::pow(omega[k], a + b) * std::cos(omega[k] * later + (b - a) * 0.5 * std::acos(-1.0));
+        out(a, b) += weight[k] * std::pow(omega[k], a + b) * std::cos(omega[k] * later + (b - a) * 0.5 * pi);
   return out;
 }
 
@@ -185,7 +186,7 @@ template <class Power>
 FilteredLog::Lines FilteredLog::linesOf(double spacing, double end, const Power& power) const {
   Lines out;
   for (int k = 0; k * spacing < end; ++k) {
-    const double omega = 2 * std::acos(-1.0) * k * spacing;
+    const double omega = 2 * pi * k * spacing;
     out.omega.push_back(omega);
     out.weight.push_back((k == 0 ? 1 : 2) * log_.step * spacing * power(omega));
   }
@@ -211,7 +212,7 @@ FilteredLog::Lines FilteredLog::sharperLines() const {
   const double period = plan_.series.frequency();
   if (plan_.is_period)
     return linesOf(period, (sharperHarmonics(plan_) + 0.5) * period, [&](double omega) {
-      return omega < 2 * std::acos(-1.0) * plan_.state_cut ? 0.0 : square(gainOf(second_.value, omega * step()));
+      return omega < 2 * pi * plan_.state_cut ? 0.0 : square(gainOf(second_.value, omega * step()));
     });
   return linesOf(0.5 / memory(), sharper * beyond * plan_.state_cut, [&](double omega) {
     return square(gainOf(second_.value, omega * step()) *

@@ -87,7 +87,7 @@ class Identification {
     out_.rows = log_.file_rows;
     out_.duration = log_.step * static_cast<double>(log_.rows());
     out_.findings = log_.findings;
-    findSigns(log_, scenario_.manipulator->motors(), out_);
+    findSaturation(log_, scenario_.manipulator->motors(), out_);
     findUnitOfTime(scenario_.trajectory->duration(), out_);
   }
 

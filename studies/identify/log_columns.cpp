@@ -8,6 +8,7 @@
 #include <regex>
 
 #include "base/csv.h"
+#include "base/scalar.h"
 #include "base/text.h"
 #include "validation/subject/torque_names.h"
 
@@ -17,7 +18,7 @@ namespace {
 constexpr const char* unit_tail = R"((?:[ _]*[\[(/_ ,][ ]*(rad|deg|degrees|°|mm|m|mA|A|kN|N|kNm|Nm)?[ ]*[\])]?)?)";
 
 double factorOf(const std::string& unit) {
-  if (unit == "deg" || unit == "degrees" || unit == "°") return std::acos(-1.0) / 180;
+  if (unit == "deg" || unit == "degrees" || unit == "°") return degree;
   if (unit == "mm" || unit == "mA") return 1e-3;
   return unit == "kN" || unit == "kNm" ? 1e3 : 1;
 }

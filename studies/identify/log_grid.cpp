@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/csv.h"
+#include "base/scalar.h"
 #include "base/text.h"
 
 namespace ursula::identification {
@@ -16,7 +17,7 @@ constexpr std::size_t fewest_rows = 16, most_gap = 100'000, head_size = 1000;
 constexpr std::size_t most_filled = 3;
 /// Rows are skipped up to this step, s, because a motion of some hertz needs it.
 constexpr double coarsest = 0.01;
-const double turn = 2 * std::acos(-1.0);
+const double turn = 2 * pi;
 
 }  // namespace
 

@@ -50,7 +50,7 @@ bool findOrder(const Matrix6d& left, IdentifyResult& out) {
 
 }  // namespace
 
-void findSigns(MeasuredLog& log, const Motors& motors, IdentifyResult& out) {
+void findSaturation(MeasuredLog& log, const Motors& motors, IdentifyResult& out) {
   for (int k = 0; k < motor_count; ++k) {
     const std::string unit = motors[k].effortUnit();
     const auto rows = saturatedRows(log.efforts.col(k));

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "base/scalar.h"
 #include "nocsolver/poses/tracking.h"
 
 namespace ursula::identification {
@@ -21,7 +22,7 @@ std::optional<PlatformPose> MotorChain::pose(const Vector6d& driven, const Platf
   Vector6d way = driven - first;
   const Motors& motors = kinematics_.solver().machine().motors;
   for (int k = 0; k < motor_count; ++k)
-    if (!motors[k].slides()) way(k) = std::remainder(way(k), 2 * std::acos(-1.0));
+    if (!motors[k].slides()) way(k) = std::remainder(way(k), 2 * pi);
   for (const int steps : {8, 64}) {
     std::optional<PlatformPose> at = from;
     for (int i = 1; i <= steps && at; ++i) at = poses::track(kinematics_.solver().noc(), first + way * i / steps, *at);
@@ -96,7 +97,7 @@ std::optional<Motion<double>> firstMotion(const Scenario& scenario, const MotorC
       continue;
     }
     for (int k = 0; k < motor_count; ++k)
-      if (!motors[k].slides()) off(k) = std::remainder(off(k), 2 * std::acos(-1.0));
+      if (!motors[k].slides()) off(k) = std::remainder(off(k), 2 * pi);
     near.emplace_back(off.norm(), at);
   }
   std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -49,7 +49,7 @@ Eigen::MatrixXd inputUncertainty(const Comparison& comparison, const Manipulator
 
 /// Finds saturation, and marks its rows as missing. It also finds quantisation that is coarser than the noise.
 /// Efforts of the other sign are found by findMistakes().
-void findSigns(MeasuredLog& log, const Motors& motors, IdentifyResult& out);
+void findSaturation(MeasuredLog& log, const Motors& motors, IdentifyResult& out);
 
 /// Finds efforts of exchanged motors, of the other sign, or in other units than the model's.
 void findMistakes(const ModelledLog& modelled, const Motors& motors, IdentifyResult& out);

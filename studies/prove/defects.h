@@ -25,7 +25,7 @@ struct Defect {
   /// Number of formulations that must catch it. It is 1 if by its nature only one can see it. Such defects are in
   /// direct dynamics and reactions (only Simbody has them), in shared parts, or in an engine, or do not affect the
   /// motion.
-  int engines = 2;
+  int formulations_wanted = 2;
   bool control = false;  ///< no defect, but the same mechanism: it must pass
 };
 

@@ -21,7 +21,7 @@ Defect wrongDirect(const std::string& name, const std::function<Direct(const Sce
                wrong.accelerations = make(s, right);
                return wrong;
              }};
-  out.engines = 1;
+  out.formulations_wanted = 1;
   return out;
 }
 

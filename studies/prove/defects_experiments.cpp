@@ -33,7 +33,7 @@ using FaultState = std::function<void(State&)>;
 Defect faulty(const std::string& name, const InjectedFault& fault) {
   Defect out{name, "experiment"};
   out.fault = fault;
-  out.engines = 1;
+  out.formulations_wanted = 1;
   return out;
 }
 

@@ -16,7 +16,7 @@ using FastLeg = kernel::PlaneModel<double>;
 Defect wrongFast(const std::string& name, const FastFault& fault) {
   Defect out{name, "fast"};
   out.fault.fast = fault;
-  out.engines = 1;
+  out.formulations_wanted = 1;
   return out;
 }
 
@@ -99,7 +99,7 @@ Defect formula_error(const char* name, const char* group, FormulaError which) {
 
 Defect formulaErrorInDirect(const char* name, FormulaError which) {
   Defect out = formula_error(name, "direct", which);
-  out.engines = 1;
+  out.formulations_wanted = 1;
   return out;
 }
 
@@ -112,13 +112,13 @@ Defect read(const char* name, const char* group, const std::function<void(Read&)
 /// Makes an error in only one frame or system of units, so that only a change of them reveals it.
 Defect readElsewhere(const char* name, const std::function<void(Read&)>& change) {
   Defect out = read(name, "one frame", change);
-  out.engines = 1;
+  out.formulations_wanted = 1;
   return out;
 }
 
 Defect formulaErrorInConstraints(const char* name, FormulaError which) {
   Defect out = formula_error(name, "complement", which);
-  out.engines = 1;
+  out.formulations_wanted = 1;
   return out;
 }
 

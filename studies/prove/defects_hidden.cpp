@@ -22,7 +22,7 @@ Subject wrongWhere(const Manipulator& machine, const std::shared_ptr<const Load>
 
 Defect hidden(const char* name, const std::function<Wrong(const Scenario&)>& make) {
   Defect out{name, "hidden", [make](const Scenario& s) { return wrongWhere(*s.manipulator, s.load, make(s)); }};
-  out.engines = 1;
+  out.formulations_wanted = 1;
   return out;
 }
 

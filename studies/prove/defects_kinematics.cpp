@@ -24,7 +24,7 @@ Defect wrongKinematics(const std::string& name, const std::function<void(Kinemat
                };
                return wrong;
              }};
-  out.engines = 1;
+  out.formulations_wanted = 1;
   return out;
 }
 
@@ -63,7 +63,7 @@ Defect countedOtherwise(Coordinate q, const char* how, ChangeCoordinate change) 
                };
                return wrong;
              }};
-  out.engines = 1;
+  out.formulations_wanted = 1;
   return out;
 }
 
@@ -179,7 +179,7 @@ Defect branch(const std::string& name, double share, const Quantity& quantity) {
       return Vector6d(value >= range.low && value <= range.high ? (1 + branch_error) * torques : torques);
     };
   });
-  out.engines = 1;
+  out.formulations_wanted = 1;
   return out;
 }
 
@@ -194,7 +194,7 @@ Defect pulse(const char* name, double share, const ChangeLeg& change) {
       return wrong;
     };
   });
-  out.engines = 1;
+  out.formulations_wanted = 1;
   return out;
 }
 

@@ -46,7 +46,7 @@ class FaultyTrajectory final : public ExactTrajectory {
 Defect shared(const std::string& name, const std::string& group, const InjectedFault::ScenarioChange& scenario) {
   Defect out{name, group};
   out.scenario = scenario;
-  out.engines = 1;
+  out.formulations_wanted = 1;
   return out;
 }
 

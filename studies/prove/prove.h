@@ -17,12 +17,12 @@ namespace ursula {
 struct DefectOutcome {
   std::string name, group;
   std::vector<std::string> caught_by;  ///< names of the failed checks, in the order of the result
-  int formulations_wanted = 2;         ///< as Defect::engines
+  int formulations_wanted = 2;         ///< as in Defect
   bool shows = true;                   ///< false if the defect changes nothing in this scenario
   std::string refused;                 ///< why nothing could be validated: an impossible machine or motion
 
-  int engines() const;  ///< number of formulations that caught it
-  bool caught() const { return !refused.empty() || engines() >= formulations_wanted; }
+  int formulations() const;  ///< number of formulations that caught it
+  bool caught() const { return !refused.empty() || formulations() >= formulations_wanted; }
 };
 
 /// The defects that one check alone catches, and those that it catches first in the order of the result.

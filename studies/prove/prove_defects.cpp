@@ -39,7 +39,7 @@ class Proof {
   const std::vector<Check>& checks() const { return checks_; }
 
   DefectOutcome judge(const Defect& defect) const {
-    DefectOutcome outcome{defect.name, defect.group, {}, defect.engines, true, ""};
+    DefectOutcome outcome{defect.name, defect.group, {}, defect.formulations_wanted, true, ""};
     try {
       const std::vector<Check> checks = defect.scenario ? inItsScenario(defect, outcome) : withIts(defect);
       outcome.caught_by = failed(checks);
@@ -122,7 +122,7 @@ std::string engineOf(const std::string& check) {
   return "Simbody";
 }
 
-int DefectOutcome::engines() const {
+int DefectOutcome::formulations() const {
   std::set<std::string> engines;
   for (const std::string& check : caught_by) engines.insert(engineOf(check));
   return static_cast<int>(engines.size());

@@ -46,7 +46,7 @@ HtmlValue matrixRow(const DefectOutcome& outcome, const std::vector<std::string>
           {"defect", outcome.name},
           {"refused", outcome.refused},
           {"kind", outcome.group},
-          {"caught", outcome.engines()},
+          {"caught", outcome.formulations()},
           {"wanted", outcome.formulations_wanted},
           {"cells", listOf(checks, [&outcome](const std::string& check) { return cell(outcome, check); })}};
 }

@@ -114,7 +114,8 @@ void stopped(const ReachEnds& ends, const JointVariables<double>& q, double t) {
 class SimbodySystem {
  public:
   SimbodySystem(const Scenario& scenario)
-      : loop_(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load), ends_(*scenario.manipulator) {}
+      : loop_(*scenario.manipulator, SimbodyLoop::Topology::ball_per_leg, scenario.load),
+        ends_(*scenario.manipulator) {}
 
   OdeState start(const Motion<double>& motion) {
     start_ = loop_.place(motion).q;

@@ -164,14 +164,14 @@ bool isWrittenTo(const std::filesystem::path& file) {
 }
 
 /// Returns the number of points in [first, end) that the database has.
-std::int64_t within(Sqlite& database, std::int64_t first, std::int64_t end) {
+std::int64_t countWithin(Sqlite& database, std::int64_t first, std::int64_t end) {
   return database.number(fmt::format("SELECT count(*) FROM point WHERE id >= {} AND id < {}", first, end));
 }
 
 ShardState stateOf(const std::filesystem::path& file, const SweepIdentity& ours, std::int64_t points) {
   try {
     const auto database = opened(file, ours);
-    if (database && within(*database, 0, ours.points) == points) return ShardState::complete;
+    if (database && countWithin(*database, 0, ours.points) == points) return ShardState::complete;
     return std::filesystem::exists(file) && isWrittenTo(file) ? ShardState::locked : ShardState::missing;
   } catch (const DatabaseLocked&) {
     return ShardState::locked;
@@ -244,7 +244,7 @@ SlurmStanding standingOf(const SweepIdentity& sweep, const std::filesystem::path
   out.arrays.assign(arrays.begin(), arrays.end());
   out.merges.assign(merges.begin(), merges.end());
   const std::unique_ptr<Sqlite> whole = merging ? nullptr : opened(database, sweep);
-  out.merged = whole && within(*whole, 0, sweep.points) == sweep.points;
+  out.merged = whole && countWithin(*whole, 0, sweep.points) == sweep.points;
   SweepIdentity part = sweep;
   part.shards = shards;
   for (int k = 1; k <= shards; ++k) {
@@ -253,7 +253,7 @@ SlurmStanding standingOf(const SweepIdentity& sweep, const std::filesystem::path
     const std::int64_t first = shard.first(sweep.points), end = shard.end(sweep.points);
     if (queued.count(k) > 0)
       out.shards.push_back(ShardState::queued);
-    else if (out.merged || (whole && within(*whole, first, end) == end - first))
+    else if (out.merged || (whole && countWithin(*whole, first, end) == end - first))
       out.shards.push_back(ShardState::complete);
     else
       out.shards.push_back(stateOf(shardDatabase(database, shard), part, end - first));

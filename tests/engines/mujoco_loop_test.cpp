@@ -67,7 +67,7 @@ TEST_P(MujocoOnScenarios, agreesWithTheOtherEngines) {
   const Scenario scenario = scenarioOf(GetParam());
   MujocoLoop loop(*scenario.manipulator, scenario.load);
   MaximalLoop maximal(*scenario.manipulator, scenario.load);
-  SimbodyLoop simbody(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
+  SimbodyLoop simbody(*scenario.manipulator, SimbodyLoop::Topology::ball_per_leg, scenario.load);
   double size = 0, from_maximal = 0, from_simbody = 0;
   for (int k = 0; k <= 20; ++k) {
     const Motion<double> motion = scenario.trajectory->at(scenario.trajectory->duration() * k / 20);

@@ -49,7 +49,7 @@ class Loop : public testing::TestWithParam<std::string> {
   SeededDraws dice_{41};
 };
 
-constexpr Topology topologies[] = {Topology::six_balls, Topology::tree_through_leg_1};
+constexpr Topology topologies[] = {Topology::ball_per_leg, Topology::tree_through_leg_1};
 
 /// The vectors are the truth at position level, made without Simbody and without the paper's rates.
 TEST_P(Loop, hasTheJointMotionAndTorquesOfTheVectors) {
@@ -93,7 +93,7 @@ TEST_P(Loop, closesTheLoopsAndTakesThePlatformWhereItIsTold) {
 
 /// Control: the closure reveals a wrong angle and a wrong rate.
 TEST_P(Loop, closureSeesAnOpenLoop) {
-  SimbodyLoop at = loop(Topology::six_balls);
+  SimbodyLoop at = loop(Topology::ball_per_leg);
   const Motion<double> motion = randomState(scenario_, dice_);
   const JointMotion right = at.place(motion);
   JointMotion off = right;
@@ -121,7 +121,7 @@ std::shared_ptr<const Load> someLoad(Load::Frame frame) {
 TEST_P(Loop, bodiesAndTorquesAgreeBetweenTheTopologies) {
   for (const auto& load :
        {std::shared_ptr<const Load>(), someLoad(Load::Frame::base), someLoad(Load::Frame::platform)}) {
-    SimbodyLoop six = loop(Topology::six_balls, load), tree = loop(Topology::tree_through_leg_1, load);
+    SimbodyLoop six = loop(Topology::ball_per_leg, load), tree = loop(Topology::tree_through_leg_1, load);
     const Motion<double> motion = randomState(scenario_, dice_);
     six.place(motion);
     tree.place(motion);
@@ -179,7 +179,7 @@ TEST_P(Loop, hasTheRotorsOfItsMotors) {
     EXPECT_LE((with.inverseDynamics() - torques).norm(), room * torques.norm());
     with.accelerate(torques);
     EXPECT_LE(offTwistRate(with, motion), 1e3 * room);
-    if (topology == Topology::six_balls) {
+    if (topology == Topology::ball_per_leg) {
       EXPECT_LE(with.ownTwistRateError(torques).norm(), 1e3 * room);
     }
   }
@@ -193,7 +193,7 @@ TEST_P(Loop, acceleratesAsCommandedWithNearlyMasslessRods) {
     leg.distal.center_of_mass = 0;
     leg.distal.inertia = Vector3d(1e-10, 1e-10, 1e-12).asDiagonal();
   }
-  SimbodyLoop at(Manipulator(light), Topology::six_balls);
+  SimbodyLoop at(Manipulator(light), Topology::ball_per_leg);
   const Motion<double> motion = randomState(scenario_, dice_);
   at.place(motion);
   const Vector6d torques = at.inverseDynamics();
@@ -234,7 +234,7 @@ TEST_P(Loop, energyGrowsByThePower) {
 }
 
 TEST_P(Loop, stateIsWhatWasSet) {
-  SimbodyLoop at = loop(Topology::six_balls), other = loop(Topology::six_balls);
+  SimbodyLoop at = loop(Topology::ball_per_leg), other = loop(Topology::ball_per_leg);
   at.place(randomState(scenario_, dice_));
   const std::vector<double> x = at.state();
   ASSERT_EQ(static_cast<int>(x.size()), at.stateSize());
@@ -250,7 +250,7 @@ INSTANTIATE_TEST_SUITE_P(Machines, Loop, testing::Values("paper-helix", "random-
 TEST(LoopSizes, sixDegreesOfFreedomEitherWay) {
   const Scenario scenario = vectorScenario("paper-helix");
   const auto size = [&](Topology topology) { return SimbodyLoop(*scenario.manipulator, topology).stateSize(); };
-  EXPECT_EQ(size(Topology::six_balls), 6 * 3 + 7 + 24);           // a quaternion for the free platform
+  EXPECT_EQ(size(Topology::ball_per_leg), 6 * 3 + 7 + 24);        // a quaternion for the free platform
   EXPECT_EQ(size(Topology::tree_through_leg_1), 6 * 3 + 4 + 21);  // and for its ball on leg 1
 }
 

@@ -123,7 +123,7 @@ TEST(ExportGraph, AnglesReadBackAtEveryPitch) {
                           Eigen::AngleAxisd(rpy.x(), Vector3d::UnitX()));
         };
         const Matrix3d rotation = turn({roll, pitch, yaw});
-        EXPECT_LT((turn(rollPitchYaw(rotation)) - rotation).norm(), 1e-15 * 8) << roll << ' ' << pitch << ' ' << yaw;
+        EXPECT_LT((turn(rollPitchYawOf(rotation)) - rotation).norm(), 1e-15 * 8) << roll << ' ' << pitch << ' ' << yaw;
       }
 }
 

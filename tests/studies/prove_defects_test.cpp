@@ -28,7 +28,7 @@ TEST_P(ProofOf, catchesEveryDefect) {
     if (!mujocoAvailable() && outcome.name.rfind("MuJoCo", 0) == 0) continue;
     shown += outcome.shows;
     if (!outcome.shows || isBelowWhatShows(GetParam(), outcome.name)) continue;
-    EXPECT_TRUE(outcome.caught()) << outcome.name << ", on " << outcome.engines() << " of "
+    EXPECT_TRUE(outcome.caught()) << outcome.name << ", on " << outcome.formulations() << " of "
                                   << outcome.formulations_wanted;
   }
   EXPECT_GE(shown, 100);
@@ -51,7 +51,7 @@ TEST(Proof, catchesEveryDefectAndNeedsEveryCheck) {
   for (const DefectOutcome& outcome : proof.outcomes) {
     if (!mujocoAvailable() && outcome.name.rfind("MuJoCo", 0) == 0) continue;
     EXPECT_TRUE(outcome.shows) << outcome.name;
-    EXPECT_TRUE(outcome.caught()) << outcome.name << ", on " << outcome.engines() << " of "
+    EXPECT_TRUE(outcome.caught()) << outcome.name << ", on " << outcome.formulations() << " of "
                                   << outcome.formulations_wanted;
   }
   EXPECT_EQ(proof.checks.size(), mujocoAvailable() ? 36u : 35u);

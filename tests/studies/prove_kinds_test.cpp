@@ -113,7 +113,7 @@ TEST_P(UpsDefect, isCaughtOnTheEnginesThatItMust) {
   DefectOutcome outcome{defect->name, defect->group, {}, defect->engines, true, ""};
   for (const Check& check : validateMade(telescopes(), defect->subject, options).checks)
     if (check.verdict == Verdict::fail) outcome.caught_by.push_back(check.name);
-  EXPECT_TRUE(outcome.caught()) << outcome.engines() << " of " << outcome.formulations_wanted << ", by "
+  EXPECT_TRUE(outcome.caught()) << outcome.formulations() << " of " << outcome.formulations_wanted << ", by "
                                 << testing::PrintToString(outcome.caught_by);
 }
 

@@ -75,7 +75,7 @@ TEST(Defects, areHeldToTwoEnginesButWhereOneAloneCanSee) {
                                        "shared load", "experiment", "one frame", "complement", "fast"};
   for (const Defect& defect : allDefects(*provingGround().manipulator))
     if (!defect.control) {
-      EXPECT_EQ(defect.engines, alone.count(defect.group) == 1 ? 1 : 2) << defect.name;
+      EXPECT_EQ(defect.formulations_wanted, alone.count(defect.group) == 1 ? 1 : 2) << defect.name;
     }
 }
 
@@ -179,7 +179,7 @@ TEST(NoDefect, changesNothing) {
 TEST(DefectOutcome, countsEnginesAndNotChecks) {
   DefectOutcome outcome;
   outcome.caught_by = {"torque.pointwise", "torque.twin"};
-  EXPECT_EQ(outcome.engines(), 1);
+  EXPECT_EQ(outcome.formulations(), 1);
   EXPECT_FALSE(outcome.caught());
   outcome.caught_by.emplace_back("torque.maximal");
   EXPECT_TRUE(outcome.caught());

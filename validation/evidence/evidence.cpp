@@ -176,7 +176,7 @@ namespace {
 double evaluationSeconds(const Scenario& scenario) {
   using Clock = std::chrono::steady_clock;
   constexpr int evaluations = 50;
-  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
+  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::ball_per_leg, scenario.load);
   const Motion<double> start = scenario.trajectory->at(0);
   const Vector6d torques = nocSubject(*scenario.manipulator, scenario.load).torques(start);
   loop.place(start);

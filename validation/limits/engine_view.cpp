@@ -7,9 +7,9 @@ namespace ursula {
 
 struct EngineFrameChange::Engines {
   Engines(const Manipulator& machine, const std::shared_ptr<const Load>& load)
-      : six_balls(machine, SimbodyLoop::Topology::six_balls, load), further(makeFurtherEngines(machine, load)) {}
+      : ball_per_leg(machine, SimbodyLoop::Topology::ball_per_leg, load), further(makeFurtherEngines(machine, load)) {}
 
-  SimbodyLoop six_balls;
+  SimbodyLoop ball_per_leg;
   OfFurtherEngines<std::unique_ptr<Engine>> further;
 };
 
@@ -36,15 +36,15 @@ EngineView EngineFrameChange::at(const Motion<double>& motion, const Vector6d& t
   Engines& e = *engines_;
   const Motion<double> there = p.of(motion);
   EngineView out;
-  out.joints = p.back(e.six_balls.place(there));
-  out.bodies = p.back(e.six_balls.bodies());
-  out.torques = p.torquesBack(e.six_balls.inverseDynamics());
-  e.six_balls.accelerate(p.of(torques));
-  out.acceleration = twistRateBack(p, e.six_balls.platform());
-  out.gap_acceleration = e.six_balls.gapAcceleration() * p.units.acceleration();
-  out.reactions = p.back(e.six_balls.reactions());
-  e.six_balls.accelerate(p.of(others));
-  out.direct = twistRateBack(p, e.six_balls.platform());
+  out.joints = p.back(e.ball_per_leg.place(there));
+  out.bodies = p.back(e.ball_per_leg.bodies());
+  out.torques = p.torquesBack(e.ball_per_leg.inverseDynamics());
+  e.ball_per_leg.accelerate(p.of(torques));
+  out.acceleration = twistRateBack(p, e.ball_per_leg.platform());
+  out.gap_acceleration = e.ball_per_leg.gapAcceleration() * p.units.acceleration();
+  out.reactions = p.back(e.ball_per_leg.reactions());
+  e.ball_per_leg.accelerate(p.of(others));
+  out.direct = twistRateBack(p, e.ball_per_leg.platform());
   for (std::size_t k = 0; k < further_engine_count; ++k)
     if (e.further[k]) out.further[k] = p.torquesBack(e.further[k]->inverseDynamics(there));
   return out;

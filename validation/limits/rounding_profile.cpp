@@ -31,7 +31,7 @@ double angleDistance(const Manipulator& machine, const JointVariables<double>& a
     // The plane of a leg with a carriage is its rod's; its ψ starts at an axis that does not turn with the frame.
     const std::size_t in_plane = carriage ? leg_count + k : k;
     const double plane = (of_a[in_plane].R.col(0) - of_b[in_plane].R.col(0)).norm();
-    const auto turn = [](double x, double y) { return std::abs(std::remainder(x - y, 2 * std::acos(-1.0))); };
+    const auto turn = [](double x, double y) { return std::abs(std::remainder(x - y, 2 * pi)); };
     largest = larger(largest, plane);
     if (!carriage) largest = larger(largest, turn(a.psi(i), b.psi(i)));
     largest = larger(largest, turn(a.theta(i), b.theta(i)));

@@ -84,7 +84,7 @@ constexpr long most_second_evaluations = 20000;
 double contradictionBetween(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, double from,
                             double to) {
   constexpr int instants = 9;
-  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
+  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::ball_per_leg, scenario.load);
   double largest = 0;
   for (const double t : equallySpaced(to - from, instants)) {
     loop.place(scenario.trajectory->at(from + t));

@@ -48,7 +48,7 @@ struct ReplaySettings {
   double tolerance = 1e-14;   ///< absolute and relative
   bool stiff = false;         ///< rkf78 only: uses RadauStep, whose steps friction does not shorten
   double start = 0, end = 0;  ///< s; the start state is the commanded one
-  SimbodyLoop::Topology topology = SimbodyLoop::Topology::six_balls;
+  SimbodyLoop::Topology topology = SimbodyLoop::Topology::ball_per_leg;
   /// Offset [δp; L δϑ; δṗ; L δω] of the start from the commanded state, m and m/s; L is the machine's length.
   Eigen::Matrix<double, 12, 1> deviation = Eigen::Matrix<double, 12, 1>::Zero();
   std::vector<double> stops;     ///< rkf78 only: further instants to step to

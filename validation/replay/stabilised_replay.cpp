@@ -67,7 +67,7 @@ class Stabilised {
   Stabilised(const Scenario& scenario, const Amplification& amplification, const std::vector<Sample>& samples)
       : trajectory_(*scenario.trajectory),
         amplification_(amplification),
-        loop_(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load),
+        loop_(*scenario.manipulator, SimbodyLoop::Topology::ball_per_leg, scenario.load),
         solver_(*scenario.manipulator) {
     for (const Sample& sample : samples) scale_ = std::max(scale_, frequency(sample.motion.t));
   }

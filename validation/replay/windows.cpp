@@ -45,7 +45,7 @@ double derivativeNoise(SimbodyLoop& loop, const Motion<double>& motion, const Ve
 }  // namespace
 
 double reachableTolerance(const Scenario& scenario, double step_rate, bool stiff) {
-  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
+  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::ball_per_leg, scenario.load);
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);  // not the subject's torques
   constexpr int instants = 5;
   double noise = 0;

@@ -205,7 +205,7 @@ std::bitset<std::size(deviations)> beyond(const PointwiseSample& sample) {
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
                                           const std::vector<double>& instants, const RoundingProfile& profile,
                                           const std::vector<SimbodyAnswer>& simbody, const Deadline& deadline) {
-  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
+  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::ball_per_leg, scenario.load);
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);
   std::vector<PointwiseSample> samples;
   samples.reserve(instants.size());
@@ -239,7 +239,7 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
 
 std::vector<PointwiseSample> runJointsAndTorques(const Scenario& scenario, const Subject& subject,
                                                  const std::vector<double>& instants) {
-  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
+  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::ball_per_leg, scenario.load);
   ConditioningProbe probe(*scenario.manipulator, scenario.load);
   std::vector<PointwiseSample> samples(instants.size());
   for (std::size_t k = 0; k < instants.size(); ++k) {

@@ -39,7 +39,7 @@ SimbodyAnswer simbodyAnswer(SimbodyLoop& loop, const Subject& right, const Motio
 
 std::vector<SimbodyAnswer> simbodyAnswers(const Scenario& scenario, const std::vector<double>& instants,
                                           const Deadline& deadline) {
-  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
+  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::ball_per_leg, scenario.load);
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);
   std::vector<SimbodyAnswer> out;
   out.reserve(instants.size());

@@ -45,7 +45,7 @@ Motion<double> deviated(const Conditions& sample, double sign) {
 
 std::vector<DirectSample> runDirect(const Scenario& scenario, const std::vector<Conditions>& conditions,
                                     const std::vector<SimbodyAnswer>& simbody) {
-  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
+  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::ball_per_leg, scenario.load);
   const std::size_t stride = std::max<std::size_t>(1, conditions.size() / instants_of_direct);
   std::vector<DirectSample> out;
   for (std::size_t k = 0; k < conditions.size(); k += stride) {
@@ -72,7 +72,7 @@ std::vector<DirectSample> runDirect(const Scenario& scenario, const std::vector<
 template <class Sample>
 std::vector<ReactionSample> runReactions(const Scenario& scenario, const Subject& subject,
                                          const std::vector<Sample>& samples) {
-  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
+  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::ball_per_leg, scenario.load);
   std::vector<ReactionSample> out(samples.size());
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const Motion<double>& motion = samples[k].motion;
