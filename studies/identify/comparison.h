@@ -12,6 +12,7 @@
 
 namespace ursula::identification {
 
+/// From `offset` on, a direction belongs to one motor and is a possible cause.
 enum class DirectionKind { linear, number, numerical, delay, offset, scale, encoder, elastic, backlash, load_friction };
 /// Returns the kind's name in `summary.json`: "effort_scale", "encoder_offset", …
 const char* name(DirectionKind kind);

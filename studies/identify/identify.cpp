@@ -96,7 +96,8 @@ class Identification {
         {"too_slow", -1, 1 / log_.step, "Hz",
          fmt::format(
              "{:.4g} rows a second show motion up to {:.3g} Hz, and it goes up to {:.3g} Hz: expected a faster log",
-             1 / log_.step, plan.state_cut, plan.bandwidth)});
+             1 / log_.step, plan.state_cut, plan.bandwidth),
+         LogFinding::Decides::undecided});
   }
 
   void noteSingular(const Comparison& comparison, const FilteredLog& filtered) {
@@ -224,24 +225,24 @@ class Identification {
         out_.findings.push_back({"unmodelled", k, motor.left, motor.unit,
                                  fmt::format("no numbers of the model make the efforts of motor {} agree to better "
                                              "than {:.3g} {}, {:.3g} times what the noise of its samples explains",
-                                             k + 1, motor.left, motor.unit, ratio)});
+                                             k + 1, motor.left, motor.unit, ratio),
+                                 LogFinding::Decides::fail});
       if (motor.left > 0.5 * motor.effort && motor.effort > 0)
         out_.findings.push_back({"wrong_scenario", k, motor.left / motor.effort, "",
                                  fmt::format("whatever its numbers, the model leaves {:.0f} % of the efforts of motor "
                                              "{}: a log of another machine or motor?",
-                                             100 * motor.left / motor.effort, k + 1)});
+                                             100 * motor.left / motor.effort, k + 1),
+                                 LogFinding::Decides::fail});
     }
   }
 
   Verdict verdictOf(const Judgement& judged) const {
-    const auto has = [this](const char* kind) {
+    const auto any = [this](LogFinding::Decides decides) {
       return std::any_of(out_.findings.begin(), out_.findings.end(),
-                         [&](const LogFinding& each) { return each.kind == kind; });
+                         [decides](const LogFinding& each) { return each.decides == decides; });
     };
-    for (const char* kind : {"unmodelled", "units", "order", "sign", "wrong_scenario"})
-      if (has(kind)) return Verdict::fail;
-    if (judged.deviates || !out_.causes.empty()) return Verdict::fail;
-    return has("too_slow") || base_.freedom < 30 ? Verdict::inconclusive : Verdict::pass;
+    if (any(LogFinding::Decides::fail) || judged.deviates || !out_.causes.empty()) return Verdict::fail;
+    return any(LogFinding::Decides::undecided) || base_.freedom < 30 ? Verdict::inconclusive : Verdict::pass;
   }
 
   const Scenario& scenario_;

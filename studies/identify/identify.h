@@ -29,6 +29,7 @@ struct MeasuredCause {
   double tolerances = 0;                  ///< deviation in units of its tolerance; 0 without one
   double score = 0;                       ///< change divided by what tolerances and noise allow
   double explained = 0;                   ///< share of the deviation's square that it explains
+  bool misread = false;                   ///< the log is misread; no number of the model is wrong
   bool outside = false;                   ///< no combination of masses, inertias and friction does the same
   std::vector<std::string> as_well = {};  ///< causes that cannot be told from it
 };

@@ -18,9 +18,10 @@ constexpr double least_power = 1.5;
 
 /// Adds a finding that is a cause.
 void add(IdentifyResult& out, const char* kind, int motor, double value, const std::string& what) {
-  out.findings.push_back({kind, motor, value, "", what});
+  out.findings.push_back({kind, motor, value, "", what, LogFinding::Decides::fail});
   out.causes.push_back({kind, "", what, "", motor + 1, 0, value});
   out.causes.back().explained = 1;
+  out.causes.back().misread = true;
 }
 
 /// Looks for another order of the motors that explains the efforts. `left` has the squared deviation of the model's

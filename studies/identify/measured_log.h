@@ -10,13 +10,17 @@
 
 namespace ursula {
 
-/// A fact about a log or model that its user has to know. `kind` is one of a fixed set of words.
+/// A fact about a log or model that its user has to know.
 struct LogFinding {
+  /// What the fact makes of the verdict by itself.
+  enum class Decides { nothing, undecided, fail };
+
   std::string kind;  ///< "drop_outs", "saturation", "quantisation", "jitter", "swapped", "units", …
   int channel = -1;  ///< 0-based motor; −1 for none
   double value = 0;  ///< size, in `unit`
   std::string unit;
   std::string what;  ///< the fact in a sentence
+  Decides decides = Decides::nothing;
 };
 
 /// Options for reading a log.

@@ -133,8 +133,7 @@ std::string identifySentence(const IdentifyResult& result) {
   std::string out = (result.verdict == Verdict::fail ? "The model is wrong: " : "Not judged: ") + size + ".";
   if (result.causes.empty()) return out + (result.verdict == Verdict::fail ? " No single number explains it." : "");
   const MeasuredCause& cause = result.causes.front();
-  if (cause.kind == "order" || cause.kind == "sign" || cause.kind == "units")
-    return out + " Likely cause: " + cause.what + ".";
+  if (cause.misread) return out + " Likely cause: " + cause.what + ".";
   out += fmt::format(" Likely cause: {} is {:.6g} ± {:.2g}{} instead of {:.6g}",
                      cause.parameter.empty() ? cause.what : cause.parameter, cause.found, 1.96 * cause.uncertainty,
                      cause.unit.empty() ? "" : " " + cause.unit, cause.expected);
