@@ -55,9 +55,11 @@ struct Assumption {
 };
 using Assumptions = std::vector<Assumption>;
 
+enum class ModelFormat { sdf, mjcf, urdf };
+
 /// The content of a model file in any format: bodies, primitive joints, closures, motors and gravity.
 struct ModelGraph {
-  std::string format;  ///< "sdf", "mjcf" or "urdf"
+  ModelFormat format = ModelFormat::sdf;
   std::string name;
   Vector3d gravity = {0.0, 0.0, -9.81};
   std::vector<GraphBody> bodies;

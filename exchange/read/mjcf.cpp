@@ -39,7 +39,7 @@ struct Place {
 class MjcfReader {
  public:
   explicit MjcfReader(const Element& root) : root_(root) {
-    graph_.format = "mjcf";
+    graph_.format = ModelFormat::mjcf;
     graph_.name = attribute(root, "model");
     graph_.bodies.emplace_back();
     graph_.bodies[0].name = "world";

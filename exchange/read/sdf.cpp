@@ -36,7 +36,7 @@ class SdfReader {
     if (minor_ > newest_minor)
       refuse(root, fmt::format("version '{}', of which nothing is known, expected at most 1.{}", shown(version),
                                newest_minor));
-    graph_.format = "sdf";
+    graph_.format = ModelFormat::sdf;
     graph_.gravity = Vector3d(0, 0, -9.8);
     graph_.bodies.emplace_back();
     graph_.bodies[0].name = "world";

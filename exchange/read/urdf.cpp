@@ -46,7 +46,7 @@ const std::map<std::string, JointKind> kinds_of_joint = {
 class UrdfReader {
  public:
   UrdfReader(const Element& root, const std::filesystem::path& file) : root_(root), file_(file) {
-    graph_.format = "urdf";
+    graph_.format = ModelFormat::urdf;
     graph_.name = attribute(root, "name");
   }
 

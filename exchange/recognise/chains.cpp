@@ -89,7 +89,7 @@ class Net {
 std::string offeredLoops(const ModelGraph& graph, const Groups& groups) {
   constexpr std::size_t most = 100;
   constexpr double apart = 1e-6;  // m
-  if (graph.format != "urdf") return "";
+  if (graph.format != ModelFormat::urdf) return "";
   std::vector<char> has_child(graph.bodies.size(), 0);
   for (const GraphJoint& joint : graph.joints) has_child[joint.parent] = 1;
   std::vector<std::size_t> ends;
@@ -131,12 +131,12 @@ std::size_t findPlatform(const ModelGraph& graph, const Groups& groups, const Ne
   hubs.erase(std::remove(hubs.begin(), hubs.end(), base), hubs.end());
   if (hubs.size() == 1) return hubs[0];
   if (hubs.empty())
-    throw ImportError(
-        fmt::format("no platform: no body but those of the base, {}, has three joints, expected one that three to six "
-                    "legs carry; {}",
-                    net.bodiesOf(base),
-                    graph.format == "urdf" ? "URDF is a tree" + offeredLoops(graph, groups)
-                                           : "are its loops closed, and has the platform a joint of its own?"));
+    throw ImportError(fmt::format(
+        "no platform: no body but those of the base, {}, has three joints, expected one that three to six "
+        "legs carry; {}",
+        net.bodiesOf(base),
+        graph.format == ModelFormat::urdf ? "URDF is a tree" + offeredLoops(graph, groups)
+                                          : "are its loops closed, and has the platform a joint of its own?"));
   throw ImportError(
       fmt::format("more than one body has three joints or more: {}; --platform BODY names the one that the legs carry",
                   net.names(hubs)));

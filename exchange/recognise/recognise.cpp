@@ -151,15 +151,17 @@ class Recogniser {
       const Primitive& driven_as_a_rule = shape.joints[shape.jointOf(rowOf(shape.kind).actuated).value()];
       usual.push_back(shown(graph_.joints[driven_as_a_rule.joint].name));
     }
-    throw ImportError(
-        fmt::format("{} driven joint{}, expected six{}. Name all of them with --actuated J,…; candidates: {}{}", driven,
-                    driven == 1 ? "" : "s", driven == 0 ? fmt::format("; {} says nothing of motors here", upper()) : "",
-                    fmt::join(names, ", "),
-                    usual.size() == 6 ? fmt::format(". As a rule: --actuated {}", fmt::join(usual, ",")) : ""));
+    throw ImportError(fmt::format(
+        "{} driven joint{}, expected six{}. Name all of them with --actuated J,…; candidates: {}{}", driven,
+        driven == 1 ? "" : "s", driven == 0 ? fmt::format("; {} says nothing of motors here", formatInWords()) : "",
+        fmt::join(names, ", "),
+        usual.size() == 6 ? fmt::format(". As a rule: --actuated {}", fmt::join(usual, ",")) : ""));
   }
 
-  /// Returns the name of the format in messages.
-  std::string upper() const { return graph_.format == "urdf" ? "URDF" : graph_.format == "sdf" ? "SDF" : "the file"; }
+  const char* formatInWords() const {
+    constexpr const char* words[] = {"SDF", "the file", "URDF"};
+    return words[static_cast<std::size_t>(graph_.format)];
+  }
 
   void takePlatform(const Group& platform, const Eigen::Isometry3d& B, const Eigen::Isometry3d& M) {
     requireWeight(platform);
