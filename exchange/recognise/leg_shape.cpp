@@ -110,8 +110,7 @@ class Shaper {
       tokens_.erase(tokens_.begin() + static_cast<std::ptrdiff_t>(end) - 3,
                     tokens_.begin() + static_cast<std::ptrdiff_t>(end));
       tokens_.insert(tokens_.begin() + static_cast<std::ptrdiff_t>(end) - 3, ball);
-      end = std::max<std::size_t>(end - 3, 0);
-      if (end < 3) break;
+      end -= 3;
     }
     for (std::size_t k = 0; k < tokens_.size(); ++k)
       if (tokens_[k].kind == Kind::S) requirePlain({k}, "a ball");

@@ -52,7 +52,7 @@ std::string inWords(int code, const char* message, int system_error) {
     case SQLITE_NOTADB:
       return "not an SQLite database, expected the database of a sweep";
     case SQLITE_CORRUPT:
-      return std::string("it is damaged: ") + message;
+      return std::string("the database is damaged: ") + message;
     case SQLITE_CANTOPEN:
       return "it cannot be opened or created here" + (system_error != 0 ? ": " + cause(system_error, "") : "");
     case SQLITE_IOERR:

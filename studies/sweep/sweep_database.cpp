@@ -47,7 +47,7 @@ void requireOurTables(Sqlite& database) {
       "SELECT sql FROM sqlite_master WHERE type = 'trigger' OR name IN ('sweep', 'point', 'result') ORDER BY rowid");
   std::string found = "\n";
   while (each.step()) found += each.text(0) + ";\n";
-  if (found != tables) refuse(database.file(), "is damaged: its tables are not those of a sweep");
+  if (found != tables) refuse(database.file(), "the database is damaged: its tables are not those of a sweep");
 }
 
 /// Refuses foreign and newer databases before it uses their content.
@@ -60,7 +60,7 @@ void requireOurs(Sqlite& database) {
     refuse(file, fmt::format("has layout {} of a newer ursula, expected at most {}", version, layout));
   requireOurTables(database);
   if (const std::string found = database.text("PRAGMA quick_check(1)"); found != "ok")
-    refuse(file, "it is damaged: " + found);
+    refuse(file, "the database is damaged: " + found);
 }
 
 // SQLite stores values of any type in any column.
@@ -78,22 +78,23 @@ constexpr const char* without_results =
 void requireSound(Sqlite& database, const SweepIdentity& sweep) {
   if (sweep.points < 1 || sweep.points > most_points || sweep.shards < 1 || sweep.shards > most_shards ||
       sweep.shard < 1 || sweep.shard > sweep.shards)
-    refuse(database.file(), "is damaged: it does not say which points it is to hold");
+    refuse(database.file(), "the database is damaged: it does not say which points it is to hold");
   Statement odd(database,
                 "SELECT min(id) FROM point WHERE id < 0 OR id >= ? OR verdict NOT IN ('pass', 'fail', 'inconclusive', "
                 "'out_of_reach', 'singular', 'error')");
   odd.bind(sweep.points).step();
   if (!odd.isNull(0))
-    refuse(database.file(), fmt::format("is damaged: point {} is none of this sweep", odd.integer(0)));
+    refuse(database.file(), fmt::format("the database is damaged: point {} is none of this sweep", odd.integer(0)));
   Statement foreign(database, "SELECT point FROM result WHERE point < 0 OR point >= ? LIMIT 1");
   if (foreign.bind(sweep.points).step())
     refuse(database.file(),
-           fmt::format("is damaged: it has results of point {}, which is none of this sweep", foreign.integer(0)));
+           fmt::format("the database is damaged: it has results of point {}, which is none of this sweep",
+                       foreign.integer(0)));
   for (const auto& [sql, what] : {std::pair(odd_points, "point {} is not as a sweep writes it"),
                                   {odd_results, "a result of point {} is not as a sweep writes it"},
                                   {without_results, "point {} has no results"}})
     if (Statement row(database, sql); row.step())
-      refuse(database.file(), "is damaged: " + fmt::format(fmt::runtime(what), row.integer(0)));
+      refuse(database.file(), "the database is damaged: " + fmt::format(fmt::runtime(what), row.integer(0)));
 }
 
 /// Returns the file's folder, or an empty path if a parent is a file; SQLite's error then names it.
@@ -126,7 +127,7 @@ SweepIdentity readIdentity(Sqlite& database) {
   Statement row(database,
                 "SELECT text, hash, version, file, scenario, name, what, design, pointwise, points, shard, shards, "
                 "keys FROM sweep");
-  if (!row.step()) refuse(database.file(), "is damaged: it does not say of which sweep it is");
+  if (!row.step()) refuse(database.file(), "the database is damaged: it does not say of which sweep it is");
   SweepIdentity out;
   std::int64_t shard = 0, shards = 0;
   std::string keys;
@@ -138,7 +139,7 @@ SweepIdentity readIdentity(Sqlite& database) {
   try {
     out.keys = nlohmann::json::parse(keys).get<std::vector<std::string>>();
   } catch (const nlohmann::json::exception&) {
-    refuse(database.file(), "is damaged: it does not say what varies");
+    refuse(database.file(), "the database is damaged: it does not say what varies");
   }
   requireSound(database, out);
   return out;

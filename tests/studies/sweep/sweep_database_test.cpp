@@ -82,7 +82,8 @@ TEST(SweepDatabase, refusesToFinishWhereItsLogWasCutShort) {
       if (id == 2000) std::filesystem::resize_file(folder.path() / "s.db-wal", static_cast<std::uintmax_t>(left));
     }
     EXPECT_THAT(refusal<DatabaseError>([&] { database.finish(); }),
-                testing::AllOf(HasSubstr("s.db: error: it is damaged"), HasSubstr("or its -wal, while it was written")))
+                testing::AllOf(HasSubstr("s.db: error: the database is damaged"),
+                               HasSubstr("or its -wal, while it was written")))
         << left;
   }
 }
