@@ -31,9 +31,8 @@ struct ValidateOptions {
   std::vector<std::string> scenarios, map;
   std::string torques, out;
   ExternalSolverOptions solver;  ///< the solver under test, if it has a command
-  double rtol = 0, atol = 0;     ///< 0 if not given
-  bool any_tolerance = false;
-  double time_limit = 0;  ///< per scenario, s; 0 if not given
+  EffortTolerance tolerance;     ///< zeros if not given
+  double time_limit = 0;         ///< per scenario, s; 0 if not given
   bool json = false, quiet = false, strict = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 
@@ -193,12 +192,8 @@ int validateAll(const ValidateOptions& options) {
       std::none_of(members.begin(), members.end(), [](const auto& each) { return each.error.empty(); });
   if (options.strict || none_good) members = allOrNothing(std::move(members));
   requireConsistent(options, members);
-  for (SuiteMember& member : members) {
-    if (!member.scenario) continue;
-    std::optional<EffortTolerance>& tolerance = member.scenario->tolerance;
-    if (options.rtol > 0 || options.atol > 0) tolerance = EffortTolerance{options.rtol, options.atol};
-    if (tolerance) tolerance->any = options.any_tolerance;
-  }
+  for (SuiteMember& member : members)
+    if (member.scenario) setTolerance(options.tolerance, *member.scenario);
   const std::filesystem::path dir = folderOf(options, members);
   if (const auto input = report::replacedInput(inputsOf(options, members), dir); !input.empty())
     throw UsageError(fmt::format("--out {}: results would replace {}, which is read, expected another folder",
@@ -261,14 +256,15 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
                  "Computes and writes nothing unless every scenario can be read and has a valid motion");
   addOtherSolvers(*verb, *options);
   verb->add_option(
-          "--rtol", options->rtol,
+          "--rtol", options->tolerance.relative,
           "Largest error of torques or forces that passes, relative to the largest effort of the motion, also as 1%;\n"
           "takes precedence over [acceptance] torque")
       ->check(finitePositive())
       ->transform(withoutPercent);  // runs first, because transforms run in reverse order
-  verb->add_option("--atol", options->atol, "Largest error that passes, N m or N; added to that of --rtol")
+  verb->add_option("--atol", options->tolerance.absolute,
+                   "Largest error that passes, N m or N; added to that of --rtol")
       ->check(finitePositive());
-  verb->add_flag("--any-tolerance", options->any_tolerance, "Accepts even a tolerance at which zeros would pass");
+  verb->add_flag("--any-tolerance", options->tolerance.any, "Accepts even a tolerance at which zeros would pass");
   verb->footer(
       "Several scenarios: each gets a folder under DIR, and all share index.html and junit.xml. A folder with one\n"
       "scenario is treated alike. A scenario that cannot be read, is out of reach or is singular counts as an error,\n"

@@ -30,10 +30,8 @@ CLI::Validator finitePositive() {
 }
 
 std::string withoutPercent(std::string text) {
-  const LeadingNumber read = leadingNumber(text);
-  const std::string rest = read.length > 0 ? text.substr(read.length) : "";
-  const bool is_share = rest == "%" || rest == " %";
-  return is_share ? fmt::format("{}", read.value / 100) : text;
+  const std::optional<double> share = percentage(text);
+  return share ? fmt::format("{}", *share) : text;
 }
 
 CLI::Validator finiteNotNegative() {

@@ -15,6 +15,12 @@ LeadingNumber leadingNumber(std::string_view text) {
   return out;
 }
 
+std::optional<double> percentage(std::string_view text) {
+  const LeadingNumber number = leadingNumber(text);
+  const std::string_view rest = text.substr(number.length);
+  return number.length > 0 && (rest == "%" || rest == " %") ? std::optional(number.value / 100) : std::nullopt;
+}
+
 namespace {
 
 constexpr std::size_t longest = 100;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,9 @@ struct LeadingNumber {
 /// Reads digits as in the C locale, because a host program may set one with decimal commas. A leading plus is accepted,
 /// white space is not.
 LeadingNumber leadingNumber(std::string_view text);
+
+/// Reads a percentage, with or without a space: "1%" is 0.01. Returns nullopt for other text.
+std::optional<double> percentage(std::string_view text);
 
 /// Returns the candidate at the least optimal string alignment distance from `word`, the first of equals. Returns an
 /// empty string if that distance exceeds a third of the longer word's length (at least 1).

@@ -163,10 +163,9 @@ void TomlSection::requireShare(const std::string& key, double& value) const {
   const toml::node* node = table_->get(key);
   if (!node || !node->is_string()) return require(key, value);
   const std::string& text = node->as_string()->get();
-  const LeadingNumber number = leadingNumber(text);
-  if (number.length == 0 || text.substr(number.length) != "%")
-    fail(key, fmt::format("'{}', expected a number or a percentage, such as 0.01 or \"1%\"", shown(text)));
-  value = number.value / 100;
+  const std::optional<double> share = percentage(text);
+  if (!share) fail(key, fmt::format("'{}', expected a number or a percentage, such as 0.01 or \"1%\"", shown(text)));
+  value = *share;
 }
 
 bool TomlSection::read(const std::string& key, int& value) const {

@@ -59,21 +59,10 @@ std::optional<double> shareOf(const char* name, const Share& given) {
   if (!given || std::holds_alternative<double>(*given))
     return given ? std::optional(std::get<double>(*given)) : std::nullopt;
   const std::string& text = std::get<std::string>(*given);
-  const bool is_percent = !text.empty() && text.back() == '%';
-  const py::str digits(is_percent ? text.substr(0, text.size() - 1) : text);
-  const auto number = py::reinterpret_steal<py::object>(PyFloat_FromString(digits.ptr()));
-  if (number) return number.cast<double>() / (is_percent ? 100 : 1);
-  PyErr_Clear();
+  if (const std::optional<double> share = percentage(text)) return share;
+  const LeadingNumber number = leadingNumber(text);
+  if (number.length > 0 && number.length == text.size()) return number.value;
   throw py::value_error(std::string(name) + " is '" + text + "', expected a number or a share such as '0.1%'");
-}
-
-/// Returns the scenario with the given tolerance, if any.
-Scenario tolerant(Scenario scenario, std::optional<double> rtol, std::optional<double> atol, bool any) {
-  requirePositive("rtol", rtol);
-  requirePositive("atol", atol);
-  if (rtol || atol) scenario.tolerance = EffortTolerance{rtol.value_or(0), atol.value_or(0)};
-  if (scenario.tolerance) scenario.tolerance->any = any;
-  return scenario;
 }
 
 void refuseUnlessFunction(const py::object& solver) {
@@ -106,9 +95,13 @@ ValidationResult ofTorques(const Scenario& scenario, const TorqueFile& torques, 
 }
 
 ValidationResult validated(const ScenarioWithSolver& given, const py::object& solver, const py::object& torques,
-                           const py::object& t, const Share& rtol, std::optional<double> atol, const py::object& name,
+                           const py::object& t, const Share& share, std::optional<double> atol, const py::object& name,
                            bool any_tolerance, std::optional<double> time_limit) {
-  const Scenario scenario = tolerant(given.scenario, shareOf("rtol", rtol), atol, any_tolerance);
+  const std::optional<double> rtol = shareOf("rtol", share);
+  requirePositive("rtol", rtol);
+  requirePositive("atol", atol);
+  Scenario scenario = given.scenario;
+  setTolerance({rtol.value_or(0), atol.value_or(0), any_tolerance}, scenario);
   requirePositive("time_limit", time_limit);
   const double limit = time_limit.value_or(0);
   if (!solver.is_none() && !torques.is_none())

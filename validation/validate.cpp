@@ -213,6 +213,11 @@ ValidationResult validate(const Scenario& scenario, const ValidationOptions& opt
   return validateOwn(scenario, noc, true, options);
 }
 
+void setTolerance(const EffortTolerance& users, Scenario& scenario) {
+  if (users.relative > 0 || users.absolute > 0) scenario.tolerance = users;
+  if (scenario.tolerance) scenario.tolerance->any = users.any;
+}
+
 double estimatedSeconds(const Scenario& scenario) {
   requireWhole(scenario);
   return workSeconds(scenario);

@@ -45,6 +45,9 @@ ValidationResult validate(const Scenario& scenario, const ValidationOptions& opt
 /// machine.
 ValidationResult validateMade(const Scenario& scenario, const SubjectOf& make, const ValidationOptions& options = {});
 
+/// Sets the user's tolerance. It takes precedence over the scenario's own, unless both its numbers are 0.
+void setTolerance(const EffortTolerance& users, Scenario& scenario);
+
 /// Throws OutOfTime after the deadline, as does any later request for a missing part.
 std::shared_ptr<const Reference> makeReference(const Scenario& scenario, int threads = 1,
                                                const Deadline& deadline = {});
