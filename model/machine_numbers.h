@@ -7,6 +7,15 @@
 
 namespace ursula {
 
+/// Kinds of quantities, in the order of their names in machine_numbers.cpp.
+enum class NumberGroup { gravity, mass, center, inertia, length, point, axis, friction, rotor };
+/// "gravity", "mass", …
+const char* name(NumberGroup group);
+
+enum class NumberBody { none, platform, proximal, distal };
+/// "platform", "proximal" or "distal"; empty for none.
+const char* name(NumberBody body);
+
 enum class Quantity {
   gravity,
   platform_mass,
@@ -30,15 +39,18 @@ enum class Quantity {
 /// One number of the machine; everything that names it uses this name.
 struct MachineNumber {
   Quantity quantity;
-  int leg = -1;      ///< 0-based; −1 for gravity and the platform
-  std::string body;  ///< "platform", "proximal" or "distal"; empty if it belongs to no body
+  int leg = -1;  ///< 0-based; −1 for gravity and the platform
+  NumberBody body = NumberBody::none;
   int entry = 0;     ///< index in a vector; in a tensor's xx, yy, zz, xy, xz, yz; in the leg's coordinates for friction
   int entries = 1;   ///< number of entries: 3 for a vector, 6 for a tensor
   std::string path;  ///< as in a scenario and as a sweep's key: "manipulator.leg.2.distal.inertia.3"
-  std::string group;  ///< "gravity", "mass", "center", "inertia", "length", "point", "axis", "friction" or "rotor"
   std::string words;  ///< "inertia xy", without its owner
   std::string unit;   ///< "kg m^2"
 
+  NumberGroup group() const;
+  /// Whether efforts are linear in it, if first moments replace mass centres, and inertias are those about a body's
+  /// end.
+  bool isLinear() const;
   double get(const ManipulatorParameters& machine) const;
   /// Sets both entries of an off-diagonal pair of an inertia.
   void set(ManipulatorParameters& machine, double value) const;

@@ -115,7 +115,7 @@ std::optional<double> lookUp(const NumberTolerances& raw, const std::string& pat
 std::optional<double> lookUp(const NumberTolerances& raw, const MachineNumber& number, const std::string& path,
                              const Leg& leg) {
   if (const auto found = lookUp(raw, path); found || number.quantity != Quantity::center) return found;
-  return lookUp(raw, fmt::format("{}.{}", path, number.body == "proximal" ? leg.proximalLine() : 2));
+  return lookUp(raw, fmt::format("{}.{}", path, number.body == NumberBody::proximal ? leg.proximalLine() : 2));
 }
 
 std::vector<std::string> afterLeg(const std::string& path) {

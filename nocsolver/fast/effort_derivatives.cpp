@@ -73,7 +73,7 @@ void seed(UnnormalisedMachine& machine, const MachineNumber& number, int column)
   MachineParameters<Dual>& m = machine.parameters;
   const auto i = static_cast<std::size_t>(std::max(number.leg, 0)), k = static_cast<std::size_t>(number.entry);
   LegModel<Dual>& leg = m.legs[i];
-  const bool proximal = number.body == "proximal";
+  const bool proximal = number.body == NumberBody::proximal;
   const auto one = [column](Dual& place) { place.derivatives()(column) = 1; };
   const auto entry = [&](Matrix3<Dual>& I) {
     const auto& [row, across] = tensor_entries[k];
@@ -171,21 +171,6 @@ std::string momentName(const MachineNumber& number) {
   return out;
 }
 
-bool isLinear(const MachineNumber& number) {
-  switch (number.quantity) {
-    case Quantity::gravity:
-    case Quantity::base_point:
-    case Quantity::platform_point:
-    case Quantity::base_axis:
-    case Quantity::length:
-    case Quantity::smoothing_speed:
-    case Quantity::sliding_speed:
-      return false;
-    default:
-      return true;
-  }
-}
-
 }  // namespace
 
 struct EffortDerivatives::Impl {
@@ -198,7 +183,7 @@ struct EffortDerivatives::Impl {
     const ManipulatorParameters moments = withMoments(manipulator.parameters());
     for (const MachineNumber& number : numbers) {
       parameters.push_back(number.path);
-      if (!isLinear(number)) continue;
+      if (!number.isLinear()) continue;
       linear.push_back(number);
       regressor.push_back(momentName(number));
       values.push_back(number.get(moments));

@@ -12,11 +12,6 @@ constexpr double relative_step = 1e-6;
 /// Share of a motor's effort at which a backlash has changed sides.
 constexpr double side_share = 0.02;
 
-bool isNonlinear(const MachineNumber& number) {
-  return number.group == "length" || number.group == "point" || number.group == "axis" || number.group == "gravity" ||
-         number.quantity == Quantity::smoothing_speed || number.quantity == Quantity::sliding_speed;
-}
-
 }  // namespace
 
 /// Computes efforts at the settled instants for a machine with other numbers, with the measured motion of the motors.
@@ -36,9 +31,9 @@ void ModelledLog::addNumbers(Comparison& out) const {
   const ManipulatorParameters& nominal = scenario_.manipulator->parameters();
   const Eigen::MatrixXd unchanged = effortsOf(*scenario_.manipulator);
   for (const MachineNumber& number : machineNumbers(nominal)) {
-    if (!isNonlinear(number)) continue;
+    if (number.isLinear()) continue;
     const double size = std::max(number.size(nominal), 1e-3), value = number.get(nominal), step = relative_step * size;
-    if (number.group == "friction" && nominal.legs[number.leg].coulomb.any() == false) continue;
+    if (number.group() == NumberGroup::friction && nominal.legs[number.leg].coulomb.any() == false) continue;
     ManipulatorParameters changed = nominal;
     number.set(changed, value + step);
     add(out, {DirectionKind::number, number.path, number.words, number.unit, -1, value, 0.01 * size},

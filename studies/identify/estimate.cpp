@@ -121,10 +121,9 @@ void setPlausible(const ManipulatorParameters& machine, const Comparison& compar
   const ManipulatorParameters rotors = withRotors(machine);
   std::size_t j = 0;
   for (const MachineNumber& number : machineNumbers(rotors)) {
-    const bool moment = number.group == "mass" || number.group == "center" || number.group == "inertia";
-    if (!moment && number.group != "rotor" && number.quantity != Quantity::friction &&
-        number.quantity != Quantity::coulomb)
-      continue;
+    if (!number.isLinear()) continue;
+    const NumberGroup group = number.group();
+    const bool moment = group != NumberGroup::rotor && group != NumberGroup::friction;
     Direction& direction = directions[j];
     double mass = machine.platform.mass, length = reach + machine.platform.center_of_mass.norm();
     if (number.leg >= 0) {
@@ -132,7 +131,7 @@ void setPlausible(const ManipulatorParameters& machine, const Comparison& compar
       mass = link.mass;
       length = std::max(link.length, std::abs(link.center_of_mass));
     }
-    const double power = number.group == "mass" ? 0 : number.group == "center" ? 1 : 2;
+    const double power = group == NumberGroup::mass ? 0 : group == NumberGroup::center ? 1 : 2;
     direction.plausible = mass * std::pow(length, power);
     if (!moment) {
       double largest = 0;

@@ -122,7 +122,7 @@ CrossValidation crossValidate(const Whitened& whitened, const Comparison& compar
 /// Returns the link that a number of a leg belongs to.
 inline const Link& linkOf(const ManipulatorParameters& machine, const MachineNumber& number) {
   const Leg& leg = machine.legs[number.leg];
-  return number.body == "proximal" ? leg.proximal : leg.distal;
+  return number.body == NumberBody::proximal ? leg.proximal : leg.distal;
 }
 
 /// A machine's number and its estimate from the log.

@@ -49,11 +49,11 @@ class ScenarioMarker {
 
   /// Writes the number out of the defaults. Returns false if the document cannot have it.
   bool hold(const MachineNumber& number, const ManipulatorParameters& machine) {
-    if (number.group == "inertia") makeSix(number);
+    if (number.group() == NumberGroup::inertia) makeSix(number);
     if (hold(number.path)) return true;
     if (number.quantity != Quantity::center) return false;
     const Leg& leg = machine.legs[number.leg];
-    return hold(fmt::format("{}.{}", number.path, number.body == "proximal" ? leg.proximalLine() : 2));
+    return hold(fmt::format("{}.{}", number.path, number.body == NumberBody::proximal ? leg.proximalLine() : 2));
   }
 
   bool hold(const std::string& path) {
@@ -68,7 +68,7 @@ class ScenarioMarker {
   /// The document may give moments of inertia without products.
   void makeSix(const MachineNumber& number) {
     hold(number.path.substr(0, number.path.rfind('.')) + ".0");
-    const std::string of = number.leg < 0 ? "platform" : fmt::format("leg[{}].{}", number.leg, number.body);
+    const std::string of = number.leg < 0 ? "platform" : fmt::format("leg[{}].{}", number.leg, name(number.body));
     toml::array* entries = toml::at_path(document_, "manipulator." + of + ".inertia").as_array();
     if (entries != nullptr && entries->size() == 3) entries->resize(6, 0.0);
   }
@@ -80,13 +80,14 @@ class ScenarioMarker {
 
 /// Returns the array of a body's tensor; empty for other numbers.
 std::string tensorOf(const MachineNumber& number) {
-  return number.group == "inertia" ? number.path.substr(0, number.path.rfind('.')) : "";
+  return number.group() == NumberGroup::inertia ? number.path.substr(0, number.path.rfind('.')) : "";
 }
 
 bool isShown(const NumberEstimate& each) {
   const MeasuredNumber& measured = each.measured;
   if (each.before == 0 || measured.uncertainty > says_nothing * each.before) return false;
-  const bool may_be_none = measured.group == "friction" || measured.group == "rotor";
+  const NumberGroup group = each.number.group();
+  const bool may_be_none = group == NumberGroup::friction || group == NumberGroup::rotor;
   return !may_be_none || measured.nominal > 1e-200 || measured.value > 2 * measured.uncertainty;
 }
 

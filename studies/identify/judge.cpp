@@ -211,7 +211,8 @@ std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& compa
   for (std::size_t j = 0; j < numbers.size(); ++j) {
     const MachineNumber& number = numbers[j];
     if (columns.col(j).isZero(0)) continue;
-    const bool geometry = number.group == "length" || number.group == "point" || number.group == "axis";
+    const NumberGroup group = number.group();
+    const bool geometry = group == NumberGroup::length || group == NumberGroup::point || group == NumberGroup::axis;
     const DirectionKind kind = geometry ? DirectionKind::number : DirectionKind::linear;
     if (number.leg >= 0)
       alike_on_legs["manipulator.leg_defaults" + number.path.substr(number.path.find('.', 16))].push_back(out.size());

@@ -12,13 +12,8 @@ namespace {
 /// number is identified if its uncertainty is below `identified_share` of its assumed size.
 constexpr double barrier_weight = 1e-2, identified_share = 0.1;
 
-bool isOfBodies(const MachineNumber& number) {
-  return number.group == "mass" || number.group == "center" || number.group == "inertia";
-}
-
 bool isPositive(const MachineNumber& number) {
-  return number.quantity == Quantity::friction || number.quantity == Quantity::coulomb || number.group == "rotor" ||
-         number.group == "mass";
+  return number.isLinear() && number.group() != NumberGroup::center && number.group() != NumberGroup::inertia;
 }
 
 const Matrix3d& inertiaOf(const ManipulatorParameters& machine, const MachineNumber& number) {
@@ -44,15 +39,15 @@ class MachineFit {
     std::size_t linear = 0;
     for (std::size_t j = 0; j < numbers.size(); ++j) {
       const MachineNumber& number = numbers[j];
-      if (!isOfBodies(number) && !isPositive(number)) continue;
+      if (!number.isLinear()) continue;
       const double plausible = comparison.directions[linear++].plausible;
-      NumberEstimate estimate{number, assumed(number, plausible), {number.path, number.group, number.unit}};
+      NumberEstimate estimate{number, assumed(number, plausible), {number.path, name(number.group()), number.unit}};
       estimate.measured.nominal = stated(number.get(nominal_));
       if (const auto at = tolerances.find(number.path); at != tolerances.end()) {
         estimate.measured.tolerance = at->second;
         if (by_tolerances) estimate.before = at->second;
       }
-      if (number.group == "inertia" && isThin(inertiaOf(nominal_, number))) estimate.before = 0;
+      if (number.group() == NumberGroup::inertia && isThin(inertiaOf(nominal_, number))) estimate.before = 0;
       if (estimate.before > 0) {
         free_.push_back(estimates_.size());
         columns_.push_back(j);
@@ -88,10 +83,10 @@ class MachineFit {
  private:
   /// Returns the prior uncertainty, which is about the number's own size.
   double assumed(const MachineNumber& number, double plausible) const {
-    if (number.group == "center")
+    if (number.group() == NumberGroup::center)
       return plausible / (number.leg < 0 ? nominal_.platform.mass : linkOf(nominal_, number).mass);
-    return number.group == "inertia" ? std::max(number.size(nominal_), 0.05 * plausible)
-                                     : std::max(plausible, number.get(nominal_));
+    return number.group() == NumberGroup::inertia ? std::max(number.size(nominal_), 0.05 * plausible)
+                                                  : std::max(plausible, number.get(nominal_));
   }
 
   /// Friction and rotors that the scenario lacks start slightly above zero, inside the barrier.
@@ -129,7 +124,7 @@ class MachineFit {
         if (!(value > 0)) return std::numeric_limits<double>::infinity();
         cost -= barrier_weight * std::log(value / each.before);
       }
-      if (each.number.group != "inertia" || each.number.entry != 0) continue;
+      if (each.number.group() != NumberGroup::inertia || each.number.entry != 0) continue;
       const Eigen::LLT<Matrix3d> spread(spreadOf(inertiaOf(machine, each.number)));
       if (spread.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
       cost -= 2 * barrier_weight * Matrix3d(spread.matrixL()).diagonal().array().log().sum();
@@ -186,7 +181,8 @@ class MachineFit {
         gradient(at) -= barrier_weight / value;
         hessian(at, at) += barrier_weight / (value * value);
       }
-      if (each.number.group == "inertia" && each.number.entry == 0) addSpread(each.number, hessian, gradient);
+      if (each.number.group() == NumberGroup::inertia && each.number.entry == 0)
+        addSpread(each.number, hessian, gradient);
     }
     return -scaledSolve(hessian, gradient);
   }

@@ -59,7 +59,7 @@ class TorqueReference {
 /// Lowers the error by decades while it is caught, then bisects the last decade to one in a hundred. A larger error is
 /// taken to be caught if a smaller one is.
 Sensitivity findSensitivity(const Scenario& scenario, const TorqueReference& reference, const Parameter& parameter) {
-  Sensitivity out{parameter.path, parameter.group, std::numeric_limits<double>::infinity(), 0};
+  Sensitivity out{parameter.path, name(parameter.group()), std::numeric_limits<double>::infinity(), 0};
   const auto tryError = [&](double exponent) {
     const double relative = std::pow(10, exponent);
     std::optional<double> change = std::nan("");

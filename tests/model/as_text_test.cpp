@@ -118,7 +118,7 @@ Scenario misreadByARounding(const Scenario& right, std::size_t k) {
   const std::vector<Parameter> parameters = allParameters(*right.manipulator);
   ManipulatorParameters machine = right.manipulator->parameters();
   k %= parameters.size();
-  while (!parameters[k].turns() && parameters[k].get(machine) == 0) k = (k + 1) % parameters.size();
+  while (!parameters[k].turns && parameters[k].get(machine) == 0) k = (k + 1) % parameters.size();
   parameters[k].disturb(machine, 2e-15);
   return changed(right, [&](auto& wrong) { wrong = machine; });
 }

@@ -267,7 +267,7 @@ TEST_P(AddedInertia, derivativesAndRegressorHaveThem) {
   const Vector6d efforts = FastDynamics<double>(machine_).inverseDynamics(at);
   int seen = 0;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
-    if (numbers[k].group != "rotor" && numbers[k].quantity != Quantity::center_across) continue;
+    if (numbers[k].group() != NumberGroup::rotor && numbers[k].quantity != Quantity::center_across) continue;
     const auto with = [&](double by) {
       ManipulatorParameters changed = machine_.parameters();
       numbers[k].set(changed, numbers[k].get(changed) + by);

@@ -193,7 +193,7 @@ TEST(Parameters, areThoseOfPlatformGravityAndSixLegs) {
   std::map<std::string, int> groups;
   for (const Parameter& parameter : allParameters(*provingGround().manipulator)) {
     names.insert(parameter.path);
-    ++groups[parameter.group];
+    ++groups[name(parameter.group())];
   }
   EXPECT_EQ(names.size(), 13u + 6 * 33);
   EXPECT_EQ(groups, (std::map<std::string, int>{{"gravity", 3},
@@ -230,7 +230,7 @@ TEST(Sensitivities, areTheThresholdOfTheCheckItself) {
   const std::vector<Sensitivity> sensitivities = proveSensitivities(provingGround());
   std::set<std::string> groups;
   for (std::size_t k = 0; k < parameters.size(); k += 7) {
-    groups.insert(parameters[k].group);
+    groups.insert(name(parameters[k].group()));
     ASSERT_EQ(sensitivities[k].parameter, parameters[k].path);
     EXPECT_EQ(verdictWith(parameters[k], sensitivities[k].smallest_caught), "fail") << parameters[k].path;
     EXPECT_EQ(verdictWith(parameters[k], 0.9 * sensitivities[k].smallest_caught), "pass") << parameters[k].path;

@@ -44,7 +44,8 @@ TEST_P(SlopesOf, areThoseOfTheTorques) {
   for (const Motion<double>& motion : motions) size = std::max(size, right.torques(motion).norm());
   int seen = 0;
   for (const TiedParameters& tied : tiedParameters(*scenario.manipulator)) {
-    if (tied.members.front().group == "inertia" || tied.members.front().group == "friction") continue;
+    const NumberGroup group = tied.members.front().group();
+    if (group == NumberGroup::inertia || group == NumberGroup::friction) continue;
     const auto change = [&tied](ManipulatorParameters& machine, double x) { tied.disturb(machine, x); };
     const Rows found = slopes.along(change, motions), expected = differences(scenario, change, motions);
     ASSERT_EQ(found.size(), motions.size());

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "model/machine_numbers.h"
 #include "nocsolver/errors.h"
 #include "validation/causes/fits.h"
+#include "validation/mistakes/tied_parameters.h"
 #include "validation/mistakes/tried_causes.h"
 #include "validation/subject/subject.h"
 
@@ -113,8 +113,9 @@ class VectorFit {
 /// "base axis of leg 3"
 std::string ownerOf(const MachineNumber& first) {
   std::string what = first.words.substr(0, first.words.rfind(' '));
-  if (first.leg < 0) return first.body.empty() ? what : first.body + " " + what;
-  if (!first.body.empty()) what += " of the " + first.body + " link";
+  const std::string body = name(first.body);
+  if (first.leg < 0) return body.empty() ? what : body + " " + what;
+  if (!body.empty()) what += " of the " + body + " link";
   return fmt::format("{} of leg {}", what, first.leg + 1);
 }
 
@@ -131,7 +132,7 @@ void addVector(const ManipulatorParameters& machine, const Entries& entries, con
   const Vector3d change = fit.change();
   const char* but = fit.rank() < 3 ? " (but for a part without effect)" : "";
   const MachineNumber& first = entries.front();
-  NamedCause named{CauseKind::parameter, "", first.leg >= 0 && first.body.empty() ? "legs" : first.body};
+  NamedCause named{CauseKind::parameter, "", bodyInCauses(first)};
   named.leg = first.leg + 1;
   named.parameter = first.path.substr(0, first.path.rfind('.'));
   out.addFitted([entries, change](ManipulatorParameters& other, double x) { move(entries, x * change, other); },

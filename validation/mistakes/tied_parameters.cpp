@@ -43,8 +43,9 @@ void addTogether(const ManipulatorParameters& machine, std::vector<TiedParameter
   const std::size_t count = list.size();
   for (std::size_t k = 0; k < count; ++k) {
     const Parameter& first = list[k].members.front();
-    if (first.group == "point") list[k].together = true;
-    if ((first.group != "length" && first.group != "center") || first.leg < 0 || areEqual(machine, list[k].members))
+    if (first.group() == NumberGroup::point) list[k].together = true;
+    if ((first.group() != NumberGroup::length && first.group() != NumberGroup::center) || first.leg < 0 ||
+        areEqual(machine, list[k].members))
       continue;
     list.push_back(list[k]);
     list.back().together = true;
@@ -52,6 +53,10 @@ void addTogether(const ManipulatorParameters& machine, std::vector<TiedParameter
 }
 
 }  // namespace
+
+std::string bodyInCauses(const MachineNumber& number) {
+  return number.leg >= 0 && number.body == NumberBody::none ? "legs" : name(number.body);
+}
 
 void TiedParameters::disturb(ManipulatorParameters& machine, double relative) const {
   ManipulatorParameters first = machine;
@@ -79,13 +84,14 @@ std::string TiedParameters::text(const ManipulatorParameters& machine, double re
   const std::string amount = withDeviation(relative, deviation);
   if (first.entries == 1) return fmt::format("{} off by a relative {}", words, amount);
   return fmt::format("{} off by {} of each {}", words, amount,
-                     first.group == "inertia" ? "tensor's largest moment" : "vector's length");
+                     first.group() == NumberGroup::inertia ? "tensor's largest moment" : "vector's length");
 }
 
 bool TiedParameters::isPossible(const ManipulatorParameters& machine, double relative) const {
   const Parameter& first = members.front();
+  const NumberGroup group = first.group();
   const bool is_size =
-      first.group == "mass" || first.group == "length" || (first.group == "inertia" && first.entry < 3);
+      group == NumberGroup::mass || group == NumberGroup::length || (group == NumberGroup::inertia && first.entry < 3);
   if (!is_size) return true;
   ManipulatorParameters changed = machine;
   disturb(changed, relative);
@@ -100,7 +106,7 @@ std::optional<NamedCause> TiedParameters::named(const ManipulatorParameters& mac
   disturb(further, relative + deviation);
   const double before = first.get(machine), after = first.get(changed);
   if (!isPossible(machine, relative)) return std::nullopt;
-  NamedCause out{CauseKind::parameter, "", first.body.empty() && first.leg >= 0 ? "legs" : first.body};
+  NamedCause out{CauseKind::parameter, "", bodyInCauses(first)};
   const auto all = [this](auto&& same) { return std::all_of(members.begin(), members.end(), same); };
   if (all([&](const Parameter& each) { return each.leg == first.leg; })) out.leg = first.leg + 1;
   out.parameter = sharedPath(members);
@@ -123,9 +129,9 @@ std::vector<TiedParameters> tiedParameters(const Manipulator& machine) {
   };
   for (const MachineNumber& number : machineNumbers(machine.parameters())) {
     const Parameter one{number};
-    const std::string &words = one.words, &link = one.body, leg = std::to_string(one.leg + 1);
+    const std::string &words = one.words, link = name(one.body), leg = std::to_string(one.leg + 1);
     if (one.leg < 0) {
-      add(out, one.body.empty() ? words : one.body + " " + words, one);
+      add(out, link.empty() ? words : link + " " + words, one);
       continue;
     }
     const bool is_link = !link.empty();
@@ -133,8 +139,8 @@ std::vector<TiedParameters> tiedParameters(const Manipulator& machine) {
     add(all_legs, fmt::format("{} of {}", words, is_link ? "the " + link + " links" : "every leg"), one);
     // A sliding rod's length has an effect only through its mass centre's distance from the outer end. A cylinder's
     // length has none.
-    const bool is_sliding =
-        link == "distal" && one.quantity == Quantity::length && rowOf(machine.leg(one.leg).kind).isTelescopic();
+    const bool is_sliding = one.body == NumberBody::distal && one.quantity == Quantity::length &&
+                            rowOf(machine.leg(one.leg).kind).isTelescopic();
     if (!is_link || is_sliding) continue;
     add(all_links, words + " of all links", one);
     if (one.quantity == Quantity::inertia && one.entry < 2) {

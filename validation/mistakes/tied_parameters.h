@@ -25,6 +25,9 @@ struct TiedParameters {
   std::optional<NamedCause> named(const ManipulatorParameters& machine, double relative, double deviation) const;
 };
 
+/// The number's body as NamedCause has it: "legs" for a leg's number that belongs to no link.
+std::string bodyInCauses(const MachineNumber& number);
+
 /// Those of all legs come first, then both links of all legs, both links of one leg, and each alone. Points of all legs
 /// move together. Unequal lengths and mass centres do so too, in a second entry.
 std::vector<TiedParameters> tiedParameters(const Manipulator& machine);

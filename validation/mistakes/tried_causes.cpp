@@ -197,7 +197,7 @@ void TriedCauses::addTied(const TiedParameters& tied) {
   const Parameter& first = tied.members.front();
   if (tied.members.size() == 1 && first.entries == 3 && first.get(right) != 0)  // the wrong sign is far from the right
     cause.starts.push_back(-2 * first.get(right) / first.size(right));
-  if (first.group == "inertia")
+  if (first.group() == NumberGroup::inertia)
     cause.solver = [&scenario = scenario, change](double x) { return effortsOfInertias(scenario, change, x); };
 }
 

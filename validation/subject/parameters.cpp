@@ -5,7 +5,7 @@
 namespace ursula {
 
 void Parameter::disturb(ManipulatorParameters& machine, double relative) const {
-  if (turns()) {
+  if (turns) {
     Vector3d& u = machine.legs[static_cast<std::size_t>(leg)].base_axis;
     const Vector3d across = u.unitOrthogonal();
     const Vector3d about = entry == 0 ? across : Vector3d(u.normalized().cross(across));
@@ -28,6 +28,7 @@ std::vector<Parameter> allParameters(const Manipulator& machine) {
       parameter.path.replace(parameter.path.size() - 1, 1, number.entry == 0 ? "across" : "along");
       parameter.words = number.entry == 0 ? "base axis (turned one way)" : "base axis (turned the other way)";
       parameter.unit = "rad";
+      parameter.turns = true;
     }
     out.push_back(parameter);
   }

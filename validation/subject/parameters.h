@@ -9,7 +9,8 @@ namespace ursula {
 /// A number of the machine to disturb. Of an axis it may also be one of two rotations perpendicular to it:
 /// "manipulator.leg.2.base_axis.across", rad.
 struct Parameter : MachineNumber {
-  bool turns() const { return quantity == Quantity::base_axis && unit == "rad"; }
+  bool turns = false;  ///< whether it is such a rotation
+
   /// Applies a relative error. It is relative to the largest moment for an inertia entry, and to the vector's norm (or
   /// one metre if that is zero) for a point. For an axis it is an angle.
   void disturb(ManipulatorParameters& machine, double relative) const;

@@ -25,8 +25,8 @@ class Identify : public testing::Test {
     }
     scenario.manipulator = std::make_shared<Manipulator>(truth);
     for (const MachineNumber& number : machineNumbers(truth))
-      if (number.group == "mass" || number.group == "center" || number.quantity == Quantity::friction ||
-          number.quantity == Quantity::coulomb)
+      if (number.group() == NumberGroup::mass || number.group() == NumberGroup::center ||
+          number.quantity == Quantity::friction || number.quantity == Quantity::coulomb)
         options.tolerances[number.path] = std::max(0.01 * number.size(truth), 1e-6);
   }
 

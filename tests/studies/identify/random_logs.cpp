@@ -14,8 +14,9 @@ namespace {
 const char* const kinds[] = {"paper-helix", "hexa", "hexaglide", "flight-simulator", "mixture", "three-legs"};
 
 bool hasTolerance(const MachineNumber& number) {
-  return number.group == "mass" || number.group == "center" || number.quantity == Quantity::platform_inertia ||
-         number.quantity == Quantity::friction || number.quantity == Quantity::coulomb;
+  return number.group() == NumberGroup::mass || number.group() == NumberGroup::center ||
+         number.quantity == Quantity::platform_inertia || number.quantity == Quantity::friction ||
+         number.quantity == Quantity::coulomb;
 }
 
 /// Adds friction of a size that a motor feels.
@@ -33,7 +34,8 @@ void rub(ManipulatorParameters& machine, double effort, std::mt19937& dice) {
 std::vector<std::string> massesAndCenters(const RandomLog& log) {
   std::vector<std::string> out;
   for (const MachineNumber& number : machineNumbers(log.truth))
-    if ((number.group == "mass" || number.group == "center") && log.tolerances.count(number.path) > 0)
+    if ((number.group() == NumberGroup::mass || number.group() == NumberGroup::center) &&
+        log.tolerances.count(number.path) > 0)
       out.push_back(number.path);
   return out;
 }
@@ -48,15 +50,15 @@ RandomLog randomLog(unsigned seed, const std::vector<std::string>& wrong_among) 
   ManipulatorParameters nominal = out.model.manipulator->parameters();
   for (Leg& leg : nominal.legs) leg.spins = false;
   for (const MachineNumber& number : machineNumbers(nominal))
-    if (number.group == "mass") number.set(nominal, number.get(nominal) * (0.7 + 0.6 * uniform(dice)));
+    if (number.group() == NumberGroup::mass) number.set(nominal, number.get(nominal) * (0.7 + 0.6 * uniform(dice)));
   double weight = nominal.platform.mass * nominal.gravity.norm() / 6;
   rub(nominal, weight * 0.3, dice);
   out.model.manipulator = std::make_shared<Manipulator>(nominal);
   out.truth = nominal;
   for (const MachineNumber& number : machineNumbers(nominal)) {
     if (!hasTolerance(number)) continue;
-    const double size = number.group == "friction" ? number.get(nominal) : number.size(nominal);
-    const double tolerance = (number.group == "friction" ? 0.1 : 0.01) * size;
+    const double size = number.group() == NumberGroup::friction ? number.get(nominal) : number.size(nominal);
+    const double tolerance = (number.group() == NumberGroup::friction ? 0.1 : 0.01) * size;
     if (!(tolerance > 0)) continue;
     const bool product = number.entries == 6 && number.entry > 2;
     if (product) continue;  // drawn products might belong to no body
