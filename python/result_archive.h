@@ -37,11 +37,6 @@ inline void members(Archive& archive, EffortDeviation& deviation) {
   archive(unit, largest, t, where, largest_effort, drift, duration, length, seen, allowed);
 }
 
-inline void members(Archive& archive, ReplayError& error) {
-  auto& [dominant, measured, t, observed, rounding, integration, closure, model, rest, uncertainty, growth] = error;
-  archive(dominant, measured, t, observed, rounding, integration, closure, model, rest, uncertainty, growth);
-}
-
 inline void members(Archive& archive, NamedCause& cause) {
   auto& [kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained] =
       cause;
@@ -63,24 +58,34 @@ inline void members(Archive& archive, Finding& finding) {
   archive(name, words, value, uncertainty, unit, t, leg);
 }
 
+inline void members(Archive& archive, JudgedSubject& subject) {
+  auto& [name, formulation, called_by, map] = subject;
+  archive(name, formulation, called_by, map);
+}
+
 /// It is parsed again from its text.
 inline void members(Archive& archive, std::shared_ptr<const Scenario>& asked) {
   bool has = asked != nullptr;
   archive(has);
   if (!has) return;
   std::string text, file;
+  std::optional<EffortTolerance> tolerance;
   if (!archive.reads()) {
     text = asked->text;
     file = std::filesystem::absolute(asked->file).string();
+    tolerance = asked->tolerance;
   }
-  archive(text, file);
-  if (archive.reads()) asked = std::make_shared<const Scenario>(parseScenario(text, file));
+  archive(text, file, tolerance);
+  if (!archive.reads()) return;
+  Scenario scenario = parseScenario(text, file);
+  scenario.tolerance = tolerance;
+  asked = std::make_shared<const Scenario>(std::move(scenario));
 }
 
 inline void members(Archive& archive, ValidationResult& result) {
-  auto& [scenario, formulation, limits, verdict, checks, provenance, findings, replay_error, cause, causes, terms,
+  auto& [scenario, subject, limits, verdict, checks, provenance, run, findings, replay_error, cause, causes, terms,
          words, windows, deviation, timeseries, curves, events, asked] = result;
-  archive(scenario, formulation, limits, verdict, checks, provenance, findings, replay_error, cause, causes, terms,
+  archive(scenario, subject, limits, verdict, checks, provenance, run, findings, replay_error, cause, causes, terms,
           words, windows, deviation, timeseries, curves, events, asked);
 }
 

@@ -109,7 +109,9 @@ void addReplayError(py::module_& module) {
   py::class_<ReplayError> made(module, "ReplayError", words::replay_error);
   addCopies(made);
   made.def(pickled<ReplayError>())
-      .def_readonly("dominant", &ReplayError::dominant, "The largest source, by name.")
+      .def_property_readonly(
+          "dominant", [](const ReplayError& self) { return ursula::name(self.dominant); },
+          "The largest source, by name.")
       .def_readonly("t", &ReplayError::t, "The instant at which the replay deviates most, s.")
       .def_readonly("observed", &ReplayError::observed, "The deviation there, m.")
       .def_property_readonly("rounding", errorOf(&ReplayError::rounding), "Its share, m.")
@@ -120,8 +122,8 @@ void addReplayError(py::module_& module) {
       .def_readonly("uncertainty", &ReplayError::uncertainty, "Uncertainty of the sum of the shares, m.")
       .def_readonly("amplification", &ReplayError::amplification, "The factor by which a deviation at the start grows.")
       .def("__repr__", [](const ReplayError& self) {
-        return "<ursula.ReplayError of " + std::string(py::repr(py::float_(self.observed))) + " m: " + self.dominant +
-               ">";
+        return "<ursula.ReplayError of " + std::string(py::repr(py::float_(self.observed))) +
+               " m: " + ursula::name(self.dominant) + ">";
       });
 }
 

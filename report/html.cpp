@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "base/text.h"
+#include "model/scenario.h"
 #include "report/html_template.h"
 #include "report/page.h"
 #include "report/page_data.h"
@@ -24,21 +23,17 @@ namespace {
 
 /// The command that repeats the run in the folder of its files; a function in C++ or Python has none.
 std::string command(const ValidationResult& result) {
-  const auto given = [&result](const char* key) { return fact(result.provenance, key); };
-  const std::string file = given("scenario file"), subject = given("subject"), process = given("solver process");
-  const bool from_file = std::filesystem::path(subject).extension() == ".csv";
-  if (file.empty() || (result.formulation == "external" && process.empty() && !from_file)) return "";
-  std::string out = "ursula validate " + shellWord(file);
-  const auto add = [&out](const char* option, const std::string& value) {
-    if (!value.empty()) out += fmt::format(" {} {}", option, shellWord(value));
-  };
-  if (from_file) add("--torques", subject);
-  if (const std::string map = given("columns named"); !map.empty()) out += " --map " + map;
-  add("--solver", process);
-  add("--rtol", given("relative tolerance of efforts"));
-  add("--atol", given("absolute tolerance of efforts"));
-  if (!given("any tolerance").empty()) out += " --any-tolerance";
-  return out;
+  const JudgedSubject& subject = result.subject;
+  const bool is_function = subject.formulation == Formulation::external && subject.called_by == CalledBy::program;
+  if (result.asked == nullptr || result.asked->file.empty() || is_function) return "";
+  std::string out = "ursula validate " + shellWord(result.asked->file.filename().string());
+  if (subject.called_by == CalledBy::torques) out += " --torques " + shellWord(subject.name);
+  if (!subject.map.empty()) out += " --map " + subject.map;
+  if (subject.called_by == CalledBy::solver) out += " --solver " + shellWord(subject.name);
+  const EffortTolerance tolerance = result.asked->tolerance.value_or(EffortTolerance{});
+  if (tolerance.relative > 0) out += fmt::format(" --rtol {}", tolerance.relative);
+  if (tolerance.absolute > 0) out += fmt::format(" --atol {}", tolerance.absolute);
+  return tolerance.any ? out + " --any-tolerance" : out;
 }
 
 using Facts = std::vector<std::pair<std::string, std::string>>;

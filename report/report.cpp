@@ -24,7 +24,8 @@ RunTime Stopwatch::time() const {
 
 SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path folder, const RunTime& time) {
   SuiteEntry entry{result.scenario, result.verdict, std::move(folder), result.checks, "", time, "", {}, {}};
-  if (result.replay_error) entry.dominant = result.replay_error->dominant;
+  if (result.replay_error) entry.dominant = name(result.replay_error->dominant);
+  entry.run = result.run;
   entry.trend = report::trendOf(result.timeseries);
   entry.properties = {{"verdict", name(result.verdict)}, {"limits", name(result.limits)}};
   entry.properties.insert(entry.properties.end(), result.provenance.begin(), result.provenance.end());

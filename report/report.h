@@ -40,6 +40,7 @@ struct SuiteEntry {
   std::string dominant;       ///< the finding "dominant error"; may be empty
   std::vector<double> trend;  ///< the replay's error along the motion, m, in few steps; empty without a replay
   std::vector<std::pair<std::string, std::string>> properties = {};  ///< for the JUnit file: limits, provenance
+  std::string run = {};                                              ///< as in ValidationResult
 };
 
 /// Returns the entry of `result` in a suite.

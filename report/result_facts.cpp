@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "model/check_catalogue.h"
+#include "model/scenario.h"
 #include "model/trajectories/trajectory_kinds.h"
 #include "report/quantity.h"
 #include "report/report.h"
@@ -18,9 +19,8 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 const Check* find(const ValidationResult& result, const std::string& name) {
-  const auto at = std::find_if(result.checks.begin(), result.checks.end(),
-                               [&name](const Check& check) { return check.name == name; });
-  return at == result.checks.end() || at->verdict == Verdict::not_applicable ? nullptr : &*at;
+  const Check* check = findCheck(result.checks, name);
+  return check == nullptr || check->verdict == Verdict::not_applicable ? nullptr : check;
 }
 
 double largestOf(const TimeSeries& series, const std::string& beginning) {
@@ -47,10 +47,9 @@ void addEngines(const ValidationResult& result, ResultFacts& facts) {
   if (result.deviation && expected > 0) facts.allowed = result.deviation->allowed / expected;
 }
 
-std::string ofWhom(const std::string& subject) {
-  if (subject.empty()) return "The efforts";
-  if (subject == "noc") return "The NOC's efforts";
-  return "The efforts of " + subject;
+std::string ofWhom(const JudgedSubject& subject) {
+  if (subject.formulation == Formulation::noc) return "The NOC's efforts";
+  return subject.name.empty() ? "The efforts" : "The efforts of " + subject.name;
 }
 
 std::string capital(std::string text) {
@@ -144,16 +143,10 @@ std::vector<std::pair<std::string, std::string>> findingTexts(const ValidationRe
   return out;
 }
 
-std::string fact(const std::vector<std::pair<std::string, std::string>>& facts, const std::string& key) {
-  for (const auto& [name, text] : facts)
-    if (name == key) return text;
-  return "";
-}
-
 ResultFacts factsOf(const ValidationResult& result) {
   ResultFacts out;
-  out.subject = ofWhom(fact(result.provenance, "subject"));
-  const std::string motion = fact(result.provenance, "trajectory");
+  out.subject = ofWhom(result.subject);
+  const std::string motion = result.asked != nullptr ? result.asked->trajectory->kind() : "";
   const TrajectoryKind* kind = trajectoryKind(motion);
   out.motion = kind != nullptr ? kind->words : motion.empty() ? "the motion" : "the motion through " + motion;
   const std::vector<double>* t = result.timeseries.find("t_s");
@@ -214,10 +207,11 @@ std::vector<KeyFigure> keyFigures(const ValidationResult& result) {
     out.push_back({"largest effort deviation",
                    facts.agreement >= 1e-6 ? percentText(facts.agreement) : plainNumber(facts.agreement, 2),
                    "of the largest effort"});
-  const bool passed = result.verdict == Verdict::pass && facts.dominant == "unexplained";  // then nothing is missing
-  if (!facts.dominant.empty() && facts.wrong.cause.empty() && !passed)
+  const bool passed =
+      result.verdict == Verdict::pass && facts.dominant == ErrorSource::unexplained;  // then nothing is missing
+  if (facts.dominant && facts.wrong.cause.empty() && !passed)
     out.push_back(
-        {"what limits it", facts.dominant,
+        {"what limits it", name(*facts.dominant),
          facts.windows > 1 ? fmt::format("{} windows", facts.windows) : "largest source of the replay's error"});
   return out;
 }

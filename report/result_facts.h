@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,8 @@ struct ResultFacts {
   double allowed = 0;  ///< relative to the largest effort, by a user's tolerance; 0 if there is none
   int engines = 1;     ///< number of formulations that give efforts, including the subject's
   int windows = 1;     ///< number of windows in the replay
-  std::string dominant;  ///< source of the replay's error; may be empty
-  CauseWords wrong;      ///< which efforts are wrong, and why; may be empty
+  std::optional<ErrorSource> dominant;  ///< of the replay's error
+  CauseWords wrong;                     ///< which efforts are wrong, and why; may be empty
 };
 ResultFacts factsOf(const ValidationResult& result);
 
@@ -40,9 +41,6 @@ std::vector<KeyFigure> keyFigures(const ValidationResult& result);
 
 /// Returns the findings' names and texts.
 std::vector<std::pair<std::string, std::string>> findingTexts(const ValidationResult& result);
-
-/// Returns the text of the provenance or of a property; "" if there is none.
-std::string fact(const std::vector<std::pair<std::string, std::string>>& facts, const std::string& key);
 
 /// Returns "likely cause: a factor of 1.001 on leg 3"; words that claim no cause stay alone.
 std::string causeText(const CauseWords& words);

@@ -11,7 +11,6 @@
 
 #include "base/csv.h"
 #include "base/sha1.h"
-#include "report/result_facts.h"
 #include "report/written_files.h"
 
 namespace ursula::report {
@@ -103,9 +102,10 @@ std::string timeseriesCsv(const ValidationResult& result, const std::function<vo
 }
 
 void stamp(const std::string& timeseries_sha1, ValidationResult& result) {
-  if (!fact(result.provenance, run_key).empty()) return;
+  if (!result.run.empty()) return;
   result.provenance.emplace_back(series_key, timeseries_sha1);
-  result.provenance.emplace_back(run_key, sha1(summaryJson(result)).substr(0, digits));
+  result.run = sha1(summaryJson(result)).substr(0, digits);
+  result.provenance.emplace_back(run_key, result.run);
 }
 
 ValidationResult stamped(const ValidationResult& result) {
@@ -116,8 +116,7 @@ ValidationResult stamped(const ValidationResult& result) {
 
 std::string runOf(const std::vector<SuiteEntry>& entries) {
   std::string text;
-  for (const SuiteEntry& entry : entries)
-    text += entry.scenario + "\n" + fact(entry.properties, run_key) + "\n" + entry.error + "\n";
+  for (const SuiteEntry& entry : entries) text += entry.scenario + "\n" + entry.run + "\n" + entry.error + "\n";
   return sha1(text).substr(0, digits);
 }
 

@@ -35,7 +35,7 @@ Json entryJson(const SuiteEntry& entry) {
                {"decided_by", worst == nullptr ? "" : worst->name},
                {"dominant_error", entry.dominant}};
   if (!entry.error.empty()) json["error"] = entry.error;
-  if (const std::string run = fact(entry.properties, "run"); !run.empty()) json["run"] = run;
+  if (!entry.run.empty()) json["run"] = entry.run;
   return json;
 }
 

@@ -90,7 +90,7 @@ std::string summaryJson(const ValidationResult& result) {
       result.deviation ? " " + inEffortWords(effortNoun(result), sentence(*result.deviation)) : "";
   Json summary = {{"scenario", result.scenario},
                   {"verdict", name(result.verdict)},
-                  {"formulation", result.formulation},
+                  {"formulation", name(result.subject.formulation)},
                   {"limits", name(result.limits)},
                   {"reason", reason(result.verdict, result.checks) + deviation},
                   {"checks", checks},

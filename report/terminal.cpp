@@ -140,9 +140,9 @@ std::string motorsText(const std::vector<MotorDeviation>& motors) {
 
 /// The sources of the replay's error, one per line.
 std::string replayText(const ReplayError& found, const std::string& noun) {
-  if (!found.measured)
-    return "dominant error: " + found.dominant + (found.dominant == "model" ? ": the torques are wrong\n" : "\n");
-  std::string out = "dominant error: " + found.dominant + "\n";
+  std::string out = std::string("dominant error: ") + name(found.dominant);
+  if (!found.measured) return out + (found.dominant == ErrorSource::model ? ": the torques are wrong\n" : "\n");
+  out += "\n";
   std::vector<std::vector<std::string>> rows;
   for (const auto& [source, share] : {std::pair("rounding", found.rounding),
                                       {"integration", found.integration},
@@ -160,7 +160,7 @@ std::string replayText(const ReplayError& found, const std::string& noun) {
 
 bool replayIsOpen(const std::vector<Check>& checks) {
   return std::any_of(checks.begin(), checks.end(),
-                     [](const Check& check) { return isOpen(check) && check.name.rfind("replay.", 0) == 0; });
+                     [](const Check& check) { return isOpen(check) && isOf(check, "replay"); });
 }
 
 /// Returns details of the replay and of wrong torques; right torques need none.
@@ -182,8 +182,7 @@ std::string quietHead(const SuiteEntry& entry, bool coloured) {
 
 /// Returns lines such as "  replay.position, replay.orientation: not replayed", with each reason once.
 std::string openChecks(const std::vector<Check>& checks) {
-  const bool any_failed =
-      std::any_of(checks.begin(), checks.end(), [](const Check& check) { return check.verdict == Verdict::fail; });
+  const bool any_failed = anyIs(checks, Verdict::fail);
   std::vector<std::pair<std::string, std::string>> lines;  // reason, names
   for (const Check& check : checks) {
     if (!isOpen(check)) continue;

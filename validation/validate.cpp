@@ -21,13 +21,8 @@
 namespace ursula {
 namespace {
 
-bool fails(const ValidationResult& result, const char* name) {
-  return std::any_of(result.checks.begin(), result.checks.end(),
-                     [name](const Check& check) { return check.name == name && check.verdict == Verdict::fail; });
-}
-
 std::string oddOne(const Evidence& evidence, const ValidationResult& result) {
-  const bool between = fails(result, "torque.between") && !fails(result, "torque.pointwise");
+  const bool between = fails(result.checks, "torque.between") && !fails(result.checks, "torque.pointwise");
   return between ? "the torques under test, between the samples; at the samples: " + oddOneOut(evidence.engines)
                  : oddOneOut(evidence.engines);
 }
@@ -39,11 +34,13 @@ void addFacts(const std::optional<ErrorBudget>& budget, Evidence& evidence, Vali
   evidence.invariances = std::vector<InvarianceSamples>();
   addFindings(evidence.samples, evidence.windows, result, evidence.units());
   if (budget) addBudget(*budget, result, evidence.units());
-  result.timeseries = validationSeries(*evidence.scenario->manipulator, evidence.samples, evidence.windows);
+  const FrameChange& from = evidence.natural;
+  result.timeseries = validationSeries(*evidence.scenario->manipulator, evidence.samples, evidence.windows, from);
   if (!evidence.reactions().empty())
-    addReactionColumns(*evidence.scenario->manipulator, evidence.reactions(), result.timeseries);
-  addCurves(evidence.samples, evidence.windows, result);
-  if (!evidence.ladder.rungs.empty()) result.curves.emplace_back("Work and precision", workPrecision(evidence.ladder));
+    addReactionColumns(*evidence.scenario->manipulator, evidence.reactions(), from, result.timeseries);
+  addCurves(evidence.samples, evidence.windows, from, result);
+  if (!evidence.ladder.rungs.empty())
+    result.curves.emplace_back("Work and precision", workPrecision(evidence.ladder, from));
 }
 
 /// Reports progress; `done` is the completed part of all work.
@@ -125,9 +122,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   Evidence evidence = gather(scenario, reference, subject, right, options.fault ? *options.fault : InjectedFault{},
                              {options.ladder, options.reactions,
                               [&](double share) { tell(options, work, done + share * work.samples, "experiments"); }});
-  ValidationResult result;
-  result.scenario = scenario.name;
-  result.formulation = name(subject.formulation);
+  ValidationResult result = emptyResult(scenario, subject);
   done += work.samples + work.replays;
   tell(options, work, done, "checks");
   if (right && options.time_limit <= 0 && !options.asked_to_end) evidence.threads = options.threads;
@@ -140,8 +135,6 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   reference.stop();  // the rest is short and turns the finished part into a result
   judgeEveryAnswer(evidence, result.checks);
   addFacts(budget, evidence, result);
-  seriesInSi(evidence.natural, result);
-  result.asked = std::make_shared<const Scenario>(scenario);
   result.deviation = effortDeviation(evidence, result.checks);
   listEveryCheck(scenario, evidence.has, result);
   judgeByTolerance(scenario, 0, result);
@@ -149,7 +142,6 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   if (result.verdict == Verdict::fail && subject.formulation == Formulation::external)
     diagnoseSolver(scenario, evidence, subject, result);
   sayEfforts(result);
-  addProvenance(scenario, subject.name, result);
   return result;
 }
 
@@ -161,18 +153,14 @@ std::shared_ptr<const Reference> referenceOf(const Scenario& scenario, const Val
 
 /// Returns a report even if time ran out before any experiment.
 ValidationResult nothingReached(const Scenario& scenario, const Subject& subject, const OutOfTime& over) {
-  ValidationResult result;
-  result.scenario = scenario.name;
-  result.formulation = name(subject.formulation);
+  ValidationResult result = emptyResult(scenario, subject);
   result.timeseries = validationSeries(*scenario.manipulator, {}, {});
   SubjectHas has;
   has.out_of_time = over.what();
   listEveryCheck(scenario, has, result);
   judgeByTolerance(scenario, 0, result);
   judgeByUser(scenario.acceptance, result);
-  result.asked = std::make_shared<const Scenario>(scenario);
   sayEfforts(result);
-  addProvenance(scenario, subject.name, result);
   return result;
 }
 

@@ -66,12 +66,13 @@ Evidence gatherExternal(const Scenario& given, const FrameChange& natural, const
 }
 
 void addFacts(const Evidence& evidence, const ErrorBudget& budget, ValidationResult& result) {
-  result.timeseries = validationSeries(*evidence.scenario->manipulator, evidence.samples, evidence.windows);
+  result.timeseries =
+      validationSeries(*evidence.scenario->manipulator, evidence.samples, evidence.windows, evidence.natural);
   addFindings(evidence.samples, evidence.windows, result, evidence.units());
-  addCurves(evidence.samples, evidence.windows, result);
+  addCurves(evidence.samples, evidence.windows, evidence.natural, result);
   if (!evidence.not_replayed.empty()) result.findings.push_back({"replay", "none: " + evidence.not_replayed});
   if (!evidence.spline.empty()) result.findings.push_back({"spline", evidence.spline});
-  addBudget(budget, result, evidence.units(), between_samples);
+  addBudget(budget, result, evidence.units(), ErrorSource::between_samples);
 }
 
 }  // namespace
@@ -95,16 +96,14 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   }
   Evidence evidence = gatherExternal(scenario, natural, here, external, replay);
   evidence.has.out_of_time = out_of_time;
-  ValidationResult result;
-  result.scenario = scenario.name;
-  result.formulation = name(Formulation::external);
+  ValidationResult result =
+      emptyResult(scenario, {torques.file.filename().string(), Formulation::external,
+                             torques.is_read ? CalledBy::torques : CalledBy::program, torques.map});
   result.checks = judgeAll(evidence);
   const ErrorBudget budget =
       attribute(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan);
   deadline.remove();  // the rest is short and turns the finished part into a result
   addFacts(evidence, budget, result);
-  seriesInSi(natural, result);
-  result.asked = std::make_shared<const Scenario>(scenario);
   result.deviation = effortDeviation(evidence, result.checks);
   listEveryCheck(scenario, evidence.has, result);
   judgeByTolerance(scenario, replay.between * natural.units.effort(), result);
@@ -115,8 +114,6 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
     addDiagnosis(diagnose(relocated, runExternal(relocated, file)), result);
   }
   sayEfforts(result);
-  addProvenance(scenario, torques.file.filename().string(), result);
-  if (!torques.map.empty()) result.provenance.emplace_back("columns named", torques.map);
   return result;
 }
 

@@ -47,16 +47,13 @@ ValidationResult validatePointwise(const Scenario& given, const std::vector<Chec
   evidence.subject = &subject;
   evidence.has.left_out_ladder = evidence.has.left_out_reactions = true;
 
-  ValidationResult result;
-  result.scenario = given.name;
-  result.formulation = name(subject.formulation);
+  ValidationResult result = emptyResult(given, subject);
   result.checks = of_motion == nullptr ? judgeCommandedMotion(given) : *of_motion;
   for (Check& check : judgeSamples(evidence)) result.checks.push_back(std::move(check));
   if (given.tolerance) result.deviation = effortDeviation(evidence, result.checks);
   listEveryCheck(given, evidence.has, result);
   judgeByTolerance(given, 0, result);
   judgeByUser(given.acceptance, result);
-  addProvenance(given, subject.name, result);
   return result;
 }
 

@@ -120,14 +120,14 @@ ValidationResult passedSample() {
   };
   result.verdict = overall(result.checks);
   result.replay_error = ReplayError{};
-  result.replay_error->dominant = "amplification of integration error (81 %)";
-  result.findings = {{"dominant error", "amplification of integration error (81 %)"},
+  result.replay_error->dominant = ErrorSource::amplification;
+  result.findings = {{"dominant error", "amplification"},
                      {"largest condition number of K", "5.6e3 at t = 1.88 s"},
                      {"integrator", "RKF78: 412 steps, 5 rejected, 5421 evaluations"}};
+  result.subject = {"noc", Formulation::noc};
   result.provenance = {{"scenario sha256", "b1946ac92492d2347c6235b4d2611184f2c0a9e9c8a4f4bb1c2cb7d9b6e5f0aa"},
                        {"scenario file", "paper-helix.toml"},
                        {"subject", "noc"},
-                       {"trajectory", "helix"},
                        {"commit", "478470f"},
                        {"compiler", "GCC 12.2.0, -O3 -DNDEBUG"},
                        {"libraries", "Simbody 3.7, Eigen 3.4.0, Boost 1.74"},
@@ -181,7 +181,7 @@ ValidationResult externalSample() {
   result.findings.push_back({"torques that are off", "leg 3 by up to 1.9 N m; within their limits: 1, 2, 4, 5, 6"});
   result.findings.push_back({"likely cause", "a factor of 1.001 on leg 3"});
   result.cause_words = {"leg 3 by up to 1.9 N m; within their limits: 1, 2, 4, 5, 6", "a factor of 1.001 on leg 3"};
-  result.provenance[2].second = "leg3.csv";
+  result.subject = {"leg3.csv", Formulation::external, CalledBy::torques};
   for (std::size_t k = 0; k < result.timeseries.names.size(); ++k) {
     std::vector<double>& column = result.timeseries.columns[k];
     const std::string& name = result.timeseries.names[k];

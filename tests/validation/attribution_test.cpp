@@ -82,7 +82,7 @@ TEST_P(Budget, isWholeAndLeavesNoMoreThanIsNotKnown) {
                       budget.closure.error.norm() + budget.integration.error.norm();
   EXPECT_LE((sum - budget.observed).norm(), 4 * Eigen::NumTraits<double>::epsilon() * size);
   EXPECT_LE(budget.unexplained().norm(), budget.uncertainty());
-  EXPECT_NE(budget.dominant, "model") << "the torques are right";
+  EXPECT_NE(budget.dominant, ErrorSource::model) << "the torques are right";
   // Unless the error is hardly above rounding, the uncertainty must be at most a few times the error.
   if (budget.observed.norm() > 1e-13) {
     EXPECT_LT(budget.uncertainty(), 100 * size);
@@ -105,7 +105,7 @@ TEST(Attribution, namesTheModelWhereTorquesAreOffByAMillionth) {
   for (const char* name : {"paper-helix", "millimetres"}) {
     const ErrorBudget wrong =
         budgetOf(name, [](const auto&, const Vector6d& torques) { return Vector6d((1 + 1e-6) * torques); });
-    EXPECT_EQ(wrong.dominant, "model") << name;
+    EXPECT_EQ(wrong.dominant, ErrorSource::model) << name;
     EXPECT_GT(wrong.observed.norm(), 1000 * budgetOf(name).observed.norm());
     EXPECT_LE((wrong.model.error - wrong.observed).norm(), 0.1 * wrong.observed.norm()) << "carried, not bounded";
     EXPECT_LE(wrong.unexplained().norm(), wrong.uncertainty());
@@ -117,7 +117,7 @@ TEST(Attribution, namesTheModelWhereOneLegIsOffByABillionth) {
     torques(4) *= 1 + 1e-9;
     return torques;
   });
-  EXPECT_EQ(wrong.dominant, "model");
+  EXPECT_EQ(wrong.dominant, ErrorSource::model);
   EXPECT_LE(wrong.unexplained().norm(), wrong.uncertainty());
 }
 
@@ -128,7 +128,7 @@ TEST(Attribution, namesTheModelWhereTheMotionIsLost) {
     return torques;
   });
   EXPECT_GT(wrong.observed.norm(), 0.01) << "nothing was lost";
-  EXPECT_EQ(wrong.dominant, "model");
+  EXPECT_EQ(wrong.dominant, ErrorSource::model);
 }
 
 /// A state that is falsified after each step is not an error of the torques.
@@ -136,7 +136,7 @@ TEST(Attribution, doesNotNameTheModelWhereTheIntegratorIsFaulty) {
   const ErrorBudget faulty = budgetOf("paper-helix", nullptr, [](double, std::vector<double>& x) {
     for (double& each : x) each *= 1 + 1e-11;
   });
-  EXPECT_NE(faulty.dominant, "model");
+  EXPECT_NE(faulty.dominant, ErrorSource::model);
   EXPECT_GT(faulty.observed.norm(), 10 * budgetOf("paper-helix").observed.norm()) << "nothing was falsified";
   EXPECT_LT(faulty.model.error.norm(), 0.1 * faulty.observed.norm());
 }
@@ -190,7 +190,7 @@ ErrorBudget madeBudget() {
   budget.closure = {{0, 1e-12, 0}, 4e-12};
   budget.model = {{1e-13, 0, 0}, 5e-12};
   budget.amplification = 1000;
-  budget.dominant = "integration";
+  budget.dominant = ErrorSource::integration;
   return budget;
 }
 

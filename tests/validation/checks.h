@@ -1,18 +1,11 @@
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "validation/verdict/result.h"
 
 namespace ursula {
-
-/// Returns nullptr if there is no check of that name.
-inline const Check* findCheck(const std::vector<Check>& checks, const std::string& name) {
-  const auto found = std::find_if(checks.begin(), checks.end(), [&](const Check& check) { return check.name == name; });
-  return found == checks.end() ? nullptr : &*found;
-}
 
 /// Returns "(none)" if there is no check of that name.
 inline std::string verdictOf(const std::vector<Check>& checks, const std::string& check_name) {

@@ -243,7 +243,7 @@ class ReactionCheck : public testing::TestWithParam<std::string> {
 TEST_P(ReactionCheck, passesForTheSolver) {
   TimeSeries series;
   const std::vector<ReactionSample> reactions = runReactions(scenario_, samples_);
-  addReactionColumns(*scenario_.manipulator, reactions, series);
+  addReactionColumns(*scenario_.manipulator, reactions, {}, series);
   const Check check = judgeReactions(reactions, samples_, profile_);
   EXPECT_EQ(check.verdict, Verdict::pass) << check.why;
   EXPECT_GT(check.value, 0);

@@ -117,7 +117,7 @@ TEST(ValidateControl, aWrongFastKernelFailsAndTheNocHolds) {
   options.fault = fault;
   const ValidationResult result = validate(quick("paper-helix"), options);
   EXPECT_EQ(result.verdict, Verdict::fail);
-  EXPECT_EQ(result.formulation, "noc");
+  EXPECT_EQ(result.subject.formulation, Formulation::noc);
   EXPECT_EQ(firstFailing(result.checks), "fast.inverse_batch");
   EXPECT_TRUE(onlyFastFails(result.checks));
   for (const char* name : {"torque.between", "torque.pointwise"})

@@ -154,14 +154,14 @@ struct Tracks {
   }
 };
 
-std::string dominantOf(const ErrorBudget& budget) {
+ErrorSource dominantOf(const ErrorBudget& budget) {
   // If torques are right to rounding, their residuals are rounding too, and no model error.
   const double model = budget.model.error.norm();
-  const std::pair<const char*, double> shares[] = {{"model", model > budget.model_rounding ? model : 0},
-                                                   {"integration", budget.integration.error.norm()},
-                                                   {"rounding", budget.rounding.error.norm()},
-                                                   {"closure", budget.closure.error.norm()},
-                                                   {"unexplained", budget.unexplained().norm()}};
+  const std::pair<ErrorSource, double> shares[] = {{ErrorSource::model, model > budget.model_rounding ? model : 0},
+                                                   {ErrorSource::integration, budget.integration.error.norm()},
+                                                   {ErrorSource::rounding, budget.rounding.error.norm()},
+                                                   {ErrorSource::closure, budget.closure.error.norm()},
+                                                   {ErrorSource::unexplained, budget.unexplained().norm()}};
   return std::max_element(std::begin(shares), std::end(shares),
                           [](const auto& a, const auto& b) { return a.second < b.second; })
       ->first;
@@ -169,20 +169,17 @@ std::string dominantOf(const ErrorBudget& budget) {
 
 /// `at(k, t)` gives the contributions at entry k.
 template <class F>
-TimeSeries curveOf(const Tracks& tracks, const std::vector<double>& instants, F&& at, const WindowedReplay& window,
-                   double scale) {
-  TimeSeries out;
-  out.names = {"t_s",         "observed (m)",    "rounding (m)", "integration (m)", "loop closure (m)",
-               "torques (m)", "unexplained (m)", "limit (m)"};
-  out.columns.resize(out.names.size());
+std::vector<std::vector<double>> curveOf(const Tracks& tracks, const std::vector<double>& instants, F&& at,
+                                         const WindowedReplay& window, double scale) {
+  std::vector<std::vector<double>> out(8);
   for (std::size_t k = 0; k < instants.size(); ++k) {
     const ErrorBudget there = at(k, instants[k]);
     const Vector3d sizes[] = {there.observed,          there.rounding.error,
                               there.integration.error, there.closure.error,
                               there.model.error,       tracks.mean(k) - there.integration.error - there.model.error};
-    out.columns.front().push_back(there.t);
-    for (std::size_t i = 0; i < std::size(sizes); ++i) out.columns[1 + i].push_back(sizes[i].norm());
-    out.columns.back().push_back(replayLimit(window, scale, there.t));
+    out.front().push_back(there.t);
+    for (std::size_t i = 0; i < std::size(sizes); ++i) out[1 + i].push_back(sizes[i].norm());
+    out.back().push_back(replayLimit(window, scale, there.t));
   }
   return out;
 }

@@ -31,11 +31,11 @@ struct ErrorBudget {
   ErrorShare rounding;        ///< from the change in turned, relabelled and rescaled frames
   ErrorShare closure;         ///< from the change when the gaps are projected away
   double amplification = 0;   ///< growth of a deviation at the window's start; not an error itself
-  std::string dominant = "unexplained";  ///< a source's name as in ReplayError
-  bool measured = false;                 ///< false without a replay to analyse
-  /// Sizes of the contributions and the limit of the judged replay from the window's start to t, for a plot. NaN where
-  /// a replay ended earlier.
-  TimeSeries along;
+  ErrorSource dominant = ErrorSource::unexplained;
+  bool measured = false;  ///< false without a replay to analyse
+  /// From the window's start to t, for a plot: instants, sizes of the contributions as in addBudget(), limit of the
+  /// judged replay. NaN where a replay ended earlier.
+  std::vector<std::vector<double>> along;
 
   Vector3d unexplained() const;
   /// Uncertainty of the sum of the contributions, m.
@@ -48,12 +48,9 @@ ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSampl
                       const std::vector<WindowedReplay>& windows, const Amplification* amplification,
                       const ReplayPlan& plan);
 
-/// The source of what is left if the efforts are those of a file.
-constexpr const char* between_samples = "between the samples";
-
 /// Adds the findings, and `along` as a curve. Amplification dominates if a replay's limit, not its error, prevents a
-/// verdict. `rest` names what no measured source explains.
+/// verdict. `rest` is what no measured source explains.
 void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units& units = {},
-               const std::string& rest = "unexplained");
+               ErrorSource rest = ErrorSource::unexplained);
 
 }  // namespace ursula

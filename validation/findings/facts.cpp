@@ -83,52 +83,35 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
 
 namespace {
 
-/// "p_x_m" → "m", "tau_1_Nm" → "Nm", "q_w" → "".
-std::string unitOf(const std::string& column) {
-  for (const char* unit : {"rad_s2", "rad_s", "rad", "m_s2", "m_s", "Nm", "N", "J", "m", "s"}) {
-    const std::string ending = std::string("_") + unit;
-    if (column.size() > ending.size() && column.compare(column.size() - ending.size(), ending.size(), ending) == 0)
-      return unit;
-  }
-  const std::size_t open = column.rfind('(');
-  return open == std::string::npos || column.back() != ')' ? "" : column.substr(open + 1, column.size() - open - 2);
+const char* inWords(Formulation formulation) {
+  if (formulation == Formulation::noc) return "noc: T formed, efforts by (37), accelerations by (36)";
+  return formulation == Formulation::fast ? "fast: the kernels that users call"
+                                          : "external: a solver or file of the user";
 }
 
-void restoreColumns(const FrameChange& from, TimeSeries& series) {
-  for (std::size_t k = 0; k < series.names.size(); ++k) {
-    const std::string& column = series.names[k];
-    const double unit = from.units.of(unitOf(column));
-    double offset = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      for (const char* prefix : {"p_", "sim_p_"})
-        if (column == fmt::format("{}{}_m", prefix, "xyz"[axis])) offset = from.origin(axis);
-    for (double& value : series.columns[k]) value = value * unit + offset;
-  }
+/// The user's tolerance and how the subject was called.
+void addAsked(const Scenario& scenario, ValidationResult& result) {
+  const auto add = [&result](const char* key, const std::string& text) { result.provenance.emplace_back(key, text); };
+  const EffortTolerance tolerance = scenario.tolerance.value_or(EffortTolerance{});
+  if (tolerance.relative > 0) add("relative tolerance of efforts", fmt::format("{}", tolerance.relative));
+  if (tolerance.absolute > 0) add("absolute tolerance of efforts", fmt::format("{}", tolerance.absolute));
+  if (tolerance.any) add("any tolerance", "yes");
+  if (!result.subject.map.empty()) add("columns named", result.subject.map);
+  if (result.subject.called_by == CalledBy::solver) add("solver process", result.subject.name);
 }
 
 }  // namespace
 
-void seriesInSi(const FrameChange& from, ValidationResult& result) {
-  restoreColumns(from, result.timeseries);
-  for (auto& [title, curve] : result.curves) restoreColumns(from, curve);
-  for (Event& event : result.events) event.t *= from.units.time;
-}
-
-namespace {
-
-const char* formulationInWords(const std::string& formulation) {
-  if (formulation == "noc") return "noc: T formed, efforts by (37), accelerations by (36)";
-  return formulation == "fast" ? "fast: the kernels that users call" : "external: a solver or file of the user";
-}
-
-}  // namespace
-
-void addProvenance(const Scenario& scenario, const std::string& subject, ValidationResult& result) {
+ValidationResult emptyResult(const Scenario& scenario, const JudgedSubject& subject) {
   const BuildProvenance& build = buildProvenance();
+  ValidationResult result;
+  result.scenario = scenario.name;
+  result.subject = subject;
+  result.asked = std::make_shared<const Scenario>(scenario);
   result.provenance = {{"scenario file", scenario.file.filename().string()},
                        {"scenario sha1", sha1(scenario.text)},
-                       {"subject", subject},
-                       {"formulation", formulationInWords(result.formulation)},
+                       {"subject", subject.name},
+                       {"formulation", inWords(subject.formulation)},
                        {"ursula", build.version},
                        {"commit", build.commit},
                        {"compiler", build.compiler},
@@ -144,13 +127,8 @@ void addProvenance(const Scenario& scenario, const std::string& subject, Validat
                        {"samples", fmt::format("{}", scenario.simulation.samples)},
                        {"integrator", name(scenario.simulation.integrator)},
                        {"tolerance", fmt::format("{:g}", scenario.simulation.tolerance)}};
-  if (!scenario.tolerance) return;
-  const auto add = [&result](const char* key, double value) {
-    if (value > 0) result.provenance.emplace_back(key, fmt::format("{}", value));
-  };
-  add("relative tolerance of efforts", scenario.tolerance->relative);
-  add("absolute tolerance of efforts", scenario.tolerance->absolute);
-  if (scenario.tolerance->any) result.provenance.emplace_back("any tolerance", "yes");
+  addAsked(scenario, result);
+  return result;
 }
 
 }  // namespace ursula

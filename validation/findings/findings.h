@@ -20,28 +20,26 @@ const PointwiseSample& nearestToEdge(const std::vector<PointwiseSample>& samples
 /// Adds curves for the report: the replay's error with its derived limit, and the growth of a deviation in each window.
 /// Further ones are the distances to singular poses and to the workspace's edge. Adds the replay's events.
 void addCurves(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
-               ValidationResult& result);
+               const FrameChange& from, ValidationResult& result);
 
 /// Error over derivative evaluations, for the report.
-TimeSeries workPrecision(const Ladder& ladder);
+TimeSeries workPrecision(const Ladder& ladder, const FrameChange& from = {});
 
 /// Adds the largest torque and acceleration with their errors, condition numbers, and the cost of the replay.
 void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
                  ValidationResult& result, const Units& units = {});
 
-/// Converts series and curves from a change of frame's units and origin to SI and B, by the names of their columns.
-void seriesInSi(const FrameChange& from, ValidationResult& result);
-
-/// Adds scenario, subject, build and settings.
-void addProvenance(const Scenario& scenario, const std::string& subject, ValidationResult& result);
+/// A result without checks. Its provenance has scenario, subject, build, settings and what the user asked for.
+ValidationResult emptyResult(const Scenario& scenario, const JudgedSubject& subject);
 
 /// Commanded and simulated motion, joint motion, efforts and errors at the instants of `samples`, with the columns of
 /// interface.md. It has only joints that the legs have, and one effort per motor.
 TimeSeries validationSeries(const Manipulator& machine, const std::vector<PointwiseSample>& samples,
-                            const std::vector<WindowedReplay>& windows);
+                            const std::vector<WindowedReplay>& windows, const FrameChange& from = {});
 
 /// Adds the computed joint reactions, one row per sample.
-void addReactionColumns(const Manipulator& machine, const std::vector<ReactionSample>& reactions, TimeSeries& series);
+void addReactionColumns(const Manipulator& machine, const std::vector<ReactionSample>& reactions,
+                        const FrameChange& from, TimeSeries& series);
 
 /// Motion, joint motion and efforts only, for `ursula inverse`.
 TimeSeries inverseSeries(const Manipulator& machine, const std::vector<Motion<double>>& motions,

@@ -26,7 +26,16 @@ ReplayError replayErrorOf(const ErrorBudget& budget, const Units& units) {
   return out;
 }
 
-void addSources(const ReplayError& found, const std::string& rest, ValidationResult& result) {
+TimeSeries curveOf(const ErrorBudget& budget, const Units& units, ErrorSource rest) {
+  TimeSeries out{{"t_s", "observed (m)", "rounding (m)", "integration (m)", "loop closure (m)", "torques (m)",
+                  std::string(name(rest)) + " (m)", "limit (m)"},
+                 budget.along};
+  for (std::vector<double>& column : out.columns)
+    for (double& value : column) value *= &column == &out.columns.front() ? units.time : units.length;
+  return out;
+}
+
+void addSources(const ReplayError& found, ErrorSource rest, ValidationResult& result) {
   const auto add = [&result](const std::string& what, const SourceOfError& source) {
     result.findings.push_back({what, "", source.error, source.uncertainty, "m"});
   };
@@ -35,36 +44,33 @@ void addSources(const ReplayError& found, const std::string& rest, ValidationRes
   add("of it by the integration", found.integration);
   add("of it by the loops' gaps", found.closure);
   add("of it by the torques", found.model);
-  add("of it " + rest, {found.unexplained, found.uncertainty});
+  add(std::string("of it ") + name(rest), {found.unexplained, found.uncertainty});
   result.findings.push_back({"amplification of a deviation at the start", "", found.amplification});
 }
 
 }  // namespace
 
-void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units& units, const std::string& rest) {
+void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units& units, ErrorSource rest) {
   const bool limit_too_large = std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
-    return check.reason == Reason::limit_useless && check.name.rfind("replay.", 0) == 0;
+    return check.reason == Reason::limit_useless && isOf(check, "replay");
   });
   // Torque errors between the samples leave no residual at them, so the error seems to have another source.
   const bool torques_fail = std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
-    return check.verdict == Verdict::fail && check.reason == Reason::none && check.name.rfind("torque.", 0) == 0;
+    return check.verdict == Verdict::fail && check.reason == Reason::none && isOf(check, "torque");
   });
-  const bool something_fails = std::any_of(result.checks.begin(), result.checks.end(),
-                                           [](const Check& check) { return check.verdict == Verdict::fail; });
-  if (!budget.measured && !something_fails && !limit_too_large) return;  // there is no error to have a source
-  const std::string dominant = torques_fail      ? "model"
-                               : limit_too_large ? "amplification"
+  if (!budget.measured && !anyIs(result.checks, Verdict::fail) && !limit_too_large)
+    return;  // there is no error to have a source
+  const ErrorSource dominant = torques_fail      ? ErrorSource::model
+                               : limit_too_large ? ErrorSource::amplification
                                : budget.measured ? budget.dominant
-                                                 : "model";
+                                                 : ErrorSource::model;
   ReplayError found = replayErrorOf(budget, units);
   // Errors of wrong torques soon leave the range in which sources add up; then the torques are all that can be told.
   if (torques_fail && 2 * found.uncertainty > found.observed) found = {};
-  found.dominant = dominant == "unexplained" ? rest : dominant;
-  result.findings.push_back({"dominant error", found.dominant});
+  found.dominant = dominant == ErrorSource::unexplained ? rest : dominant;
+  result.findings.push_back({"dominant error", name(found.dominant)});
   if (found.measured) {
-    result.curves.emplace_back("Sources of the replay's error", budget.along);
-    for (std::string& column : result.curves.back().second.names)
-      if (column == "unexplained (m)") column = rest + " (m)";
+    result.curves.emplace_back("Sources of the replay's error", curveOf(budget, units, rest));
     addSources(found, rest, result);
   }
   result.replay_error = std::move(found);

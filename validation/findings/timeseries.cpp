@@ -15,97 +15,118 @@
 namespace ursula {
 namespace {
 
-template <class Rows, class F>
-void addColumn(TimeSeries& series, const std::string& column, const Rows& rows, F&& value) {
-  std::vector<double> values;
-  values.reserve(rows.size());
-  for (const auto& row : rows) values.push_back(value(row));
-  series.add(column, std::move(values));
-}
+/// Adds columns to a series, named by quantity and unit.
+class Columns {
+ public:
+  /// The rows' numbers become SI by `from`; null if they are in SI.
+  explicit Columns(TimeSeries& series, const FrameChange* from = nullptr) : series_(series), from_(from) {}
 
-/// `pattern` contains one {} for x, y, z.
-template <class Rows, class F>
-void addVector(TimeSeries& series, const std::string& pattern, const Rows& rows, F&& vector) {
-  const char* axes[] = {"x", "y", "z"};
-  for (int k = 0; k < 3; ++k)
-    addColumn(series, fmt::format(fmt::runtime(pattern), axes[k]), rows,
-              [&](const auto& row) { return vector(row)(k); });
-}
+  template <class Rows, class F>
+  void add(const std::string& quantity, const std::string& unit, const Rows& rows, F&& value, double offset = 0) {
+    const double size = from_ == nullptr ? 1 : from_->units.of(unit);
+    std::vector<double> values;
+    values.reserve(rows.size());
+    for (const auto& row : rows) values.push_back(from_ == nullptr ? value(row) : value(row) * size + offset);
+    series_.add(quantity + (unit.empty() ? "" : "_") + unit, std::move(values));
+  }
+
+  /// `pattern` contains one {} for x, y, z.
+  template <class Rows, class F>
+  void addVector(const std::string& pattern, const std::string& unit, const Rows& rows, F&& vector,
+                 const Vector3d& offset = Vector3d::Zero()) {
+    const char* axes[] = {"x", "y", "z"};
+    for (int k = 0; k < 3; ++k)
+      add(
+          fmt::format(fmt::runtime(pattern), axes[k]), unit, rows, [&](const auto& row) { return vector(row)(k); },
+          offset(k));
+  }
+
+  template <class Rows, class F>
+  void addPosition(const std::string& pattern, const Rows& rows, F&& position) {
+    addVector(pattern, "m", rows, position, from_ == nullptr ? Vector3d(Vector3d::Zero()) : from_->origin);
+  }
+
+ private:
+  TimeSeries& series_;
+  const FrameChange* from_;
+};
 
 bool reachesEnd(const WindowedReplay& window) {
   return window.window.end() - window.replay.steps.back().t <= 1e-12 * window.window.end();
 }
 
-TimeSeries replayAndLimit(const std::vector<WindowedReplay>& windows, double position_scale) {
+TimeSeries replayAndLimit(const std::vector<WindowedReplay>& windows, double position_scale, const Units& units) {
   std::vector<double> t, error, limit;
   for (const WindowedReplay& window : windows)
     for (const ReplayStep& step : window.replay.steps) {
-      t.push_back(step.t);
-      error.push_back(step.position_error.norm());
-      limit.push_back(replayLimit(window, position_scale, step.t));
+      t.push_back(step.t * units.time);
+      error.push_back(step.position_error.norm() * units.length);
+      limit.push_back(replayLimit(window, position_scale, step.t) * units.length);
       if (&step != &window.replay.steps.back() || reachesEnd(window)) continue;
-      t.push_back(window.window.end());  // nothing was computed after this
+      t.push_back(window.window.end() * units.time);  // nothing was computed after this
       error.push_back(std::nan(""));
       limit.push_back(std::nan(""));
     }
   return {{"t_s", "position error (m)", "derived limit (m)"}, {t, error, limit}};
 }
 
-TimeSeries growth(const std::vector<WindowedReplay>& windows) {
+TimeSeries growth(const std::vector<WindowedReplay>& windows, const Units& units) {
   std::vector<double> t, from_state, from_velocity;
   for (const WindowedReplay& window : windows) {
-    t.insert(t.end(), window.window.t.begin(), window.window.t.end());
+    for (const double each : window.window.t) t.push_back(each * units.time);
     from_state.insert(from_state.end(), window.window.from_start.begin(), window.window.from_start.end());
-    from_velocity.insert(from_velocity.end(), window.window.growth.begin(), window.window.growth.end());
+    for (const double each : window.window.growth) from_velocity.push_back(each * units.time);
   }
   return {{"t_s", "of the state (1)", "of the velocity (s)"}, {t, from_state, from_velocity}};
 }
 
-TimeSeries distances(const std::vector<PointwiseSample>& samples) {
+TimeSeries distances(const std::vector<PointwiseSample>& samples, const FrameChange& from) {
   using Sample = PointwiseSample;
   TimeSeries out;
-  addColumn(out, "t_s", samples, [](const Sample& sample) { return sample.motion.t; });
-  addColumn(out, "1/κ(B): 0 in a singular pose", samples, [](const Sample& s) { return 1 / s.conditioning.kappa_B; });
+  Columns columns(out, &from);
+  columns.add("t", "s", samples, [](const Sample& sample) { return sample.motion.t; });
+  columns.add("1/κ(B): 0 in a singular pose", "", samples, [](const Sample& s) { return 1 / s.conditioning.kappa_B; });
   // Telescopic legs have no bend, so their sine is always 1.
   const auto bends = [](const Sample& sample) { return sample.conditioning.smallest_sine < 1; };
   if (std::any_of(samples.begin(), samples.end(), bends))
-    addColumn(out, "sine of the bend: 0 in a stretched or folded leg", samples,
-              [](const Sample& sample) { return sample.conditioning.smallest_sine; });
+    columns.add("sine of the bend: 0 in a stretched or folded leg", "", samples,
+                [](const Sample& sample) { return sample.conditioning.smallest_sine; });
   return out;
 }
 
 void addEvents(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
-               ValidationResult& result) {
+               const Units& units, ValidationResult& result) {
+  const auto add = [&](double t, const char* what) { result.events.push_back({t * units.time, what}); };
   for (const WindowedReplay& window : windows) {
-    if (&window != &windows.front()) result.events.push_back({window.window.start(), "the replay starts again"});
+    if (&window != &windows.front()) add(window.window.start(), "the replay starts again");
     const Replay& replay = window.replay;
-    if (!replay.gave_up.empty()) result.events.push_back({replay.stopped_at, "the replay stopped"});
-    if (replay.left_path) result.events.push_back({replay.steps.back().t, "the replay left the path"});
+    if (!replay.gave_up.empty()) add(replay.stopped_at, "the replay stopped");
+    if (replay.left_path) add(replay.steps.back().t, "the replay left the path");
   }
   if (samples.empty()) return;
-  result.events.push_back({nearestToSingular(samples).motion.t, "nearest to a singular pose"});
+  add(nearestToSingular(samples).motion.t, "nearest to a singular pose");
   const PointwiseSample& edge = nearestToEdge(samples);
-  if (edge.conditioning.smallest_sine < 1)
-    result.events.push_back({edge.motion.t, "a leg is nearest to stretched or folded"});
+  if (edge.conditioning.smallest_sine < 1) add(edge.motion.t, "a leg is nearest to stretched or folded");
 }
 
 }  // namespace
 
 void addCurves(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
-               ValidationResult& result) {
-  addEvents(samples, windows, result);
+               const FrameChange& from, ValidationResult& result) {
+  addEvents(samples, windows, from.units, result);
   if (!windows.empty()) {
-    result.curves.emplace_back("Replay against its derived limit", replayAndLimit(windows, positionScale(samples)));
-    result.curves.emplace_back("Growth of a deviation at the start of its window", growth(windows));
+    result.curves.emplace_back("Replay against its derived limit",
+                               replayAndLimit(windows, positionScale(samples), from.units));
+    result.curves.emplace_back("Growth of a deviation at the start of its window", growth(windows, from.units));
   }
-  result.curves.emplace_back("Distance to singular poses and to the workspace's edge", distances(samples));
+  result.curves.emplace_back("Distance to singular poses and to the workspace's edge", distances(samples, from));
 }
 
-TimeSeries workPrecision(const Ladder& ladder) {
+TimeSeries workPrecision(const Ladder& ladder, const FrameChange& from) {
   TimeSeries series;
-  addColumn(series, "evaluations", ladder.rungs,
-            [](const Rung& rung) { return static_cast<double>(rung.evaluations); });
-  addColumn(series, "rkf78_error_m", ladder.rungs, [](const Rung& rung) { return rung.distance; });
+  Columns columns(series, &from);
+  columns.add("evaluations", "", ladder.rungs, [](const Rung& rung) { return static_cast<double>(rung.evaluations); });
+  columns.add("rkf78_error", "m", ladder.rungs, [](const Rung& rung) { return rung.distance; });
   return series;
 }
 
@@ -113,48 +134,50 @@ namespace {
 
 /// Adds one column per motor's effort.
 template <class Rows, class F>
-void addEfforts(TimeSeries& series, const std::string& prefix, const Motors& motors, const Rows& rows, F&& efforts) {
-  for (int k = 0; k < motor_count; ++k)
-    addColumn(series, prefix + effortColumn(motors, k), rows, [&](const auto& row) { return efforts(row)(k); });
+void addEfforts(Columns& columns, const std::string& prefix, const Motors& motors, const Rows& rows, F&& efforts) {
+  for (std::size_t k = 0; k < motors.size(); ++k)
+    columns.add(fmt::format("{}tau_{}", prefix, k + 1), motors[k].effortUnit(), rows,
+                [&](const auto& row) { return efforts(row)(static_cast<Eigen::Index>(k)); });
 }
 
-/// Adds φ, ψ, θ, d of the legs that have them, grouped by coordinate.
+/// Adds φ, ψ, θ, d of the legs that have them, or their rates `per` time, grouped by coordinate.
 template <class Rows, class F>
-void addCoordinates(TimeSeries& series, const std::string& rate, const Manipulator& machine, const Rows& rows, F&& of) {
-  const std::string per = rate.empty() ? "" : rate == "dot" ? "_s" : "_s2";
+void addCoordinates(Columns& columns, const char* rate, const char* per, const Manipulator& machine, const Rows& rows,
+                    F&& of) {
   for (const Coordinate coordinate : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d})
     for (int i = 0; i < machine.legCount(); ++i) {
       const auto& has = rowOf(machine.leg(i).kind).coordinates;
       if (std::find(has.begin(), has.end(), coordinate) == has.end()) continue;
-      addColumn(series,
-                fmt::format("{}{}_{}_{}{}", nameOf(coordinate), rate, i + 1, slides(coordinate) ? "m" : "rad", per),
-                rows, [&](const auto& row) { return of(row).of(coordinate)(i); });
+      columns.add(fmt::format("{}{}_{}", nameOf(coordinate), rate, i + 1),
+                  std::string(slides(coordinate) ? "m" : "rad") + per, rows,
+                  [&](const auto& row) { return of(row).of(coordinate)(i); });
     }
 }
 
-void addRotation(TimeSeries& series, const std::string& prefix, const std::vector<Motion<double>>& motions) {
+void addRotation(Columns& columns, const std::string& prefix, const std::vector<Motion<double>>& motions) {
   const std::vector<Eigen::Vector4d> q = quaternions(motions);
   for (int k = 0; k < 4; ++k)
-    addColumn(series, prefix + "wxyz"[k], q, [k](const Eigen::Vector4d& row) { return row(k); });
+    columns.add(prefix + "wxyz"[k], "", q, [k](const Eigen::Vector4d& row) { return row(k); });
 }
 
-void addMotion(TimeSeries& series, const std::vector<Motion<double>>& motions) {
-  addColumn(series, "t_s", motions, [](const Motion<double>& m) { return m.t; });
-  addVector(series, "p_{}_m", motions, [](const Motion<double>& m) { return m.p; });
-  addRotation(series, "q_", motions);
-  addVector(series, "v_{}_m_s", motions, [](const Motion<double>& m) { return m.p_dot; });
-  addVector(series, "w_{}_rad_s", motions, [](const Motion<double>& m) { return m.omega; });
-  addVector(series, "a_{}_m_s2", motions, [](const Motion<double>& m) { return m.p_ddot; });
-  addVector(series, "alpha_{}_rad_s2", motions, [](const Motion<double>& m) { return m.omega_dot; });
+void addMotion(Columns& columns, const std::vector<Motion<double>>& motions) {
+  columns.add("t", "s", motions, [](const Motion<double>& m) { return m.t; });
+  columns.addPosition("p_{}", motions, [](const Motion<double>& m) { return m.p; });
+  addRotation(columns, "q_", motions);
+  columns.addVector("v_{}", "m_s", motions, [](const Motion<double>& m) { return m.p_dot; });
+  columns.addVector("w_{}", "rad_s", motions, [](const Motion<double>& m) { return m.omega; });
+  columns.addVector("a_{}", "m_s2", motions, [](const Motion<double>& m) { return m.p_ddot; });
+  columns.addVector("alpha_{}", "rad_s2", motions, [](const Motion<double>& m) { return m.omega_dot; });
 }
 
 /// `joints` returns the joints of a row.
 template <class Rows, class F>
-void addJoints(TimeSeries& series, const Manipulator& machine, const Rows& rows, F&& joints) {
+void addJoints(Columns& columns, const Manipulator& machine, const Rows& rows, F&& joints) {
   using Variables = JointVariables<double>;
-  addCoordinates(series, "", machine, rows, [&](const auto& row) -> const Variables& { return joints(row).q; });
-  addCoordinates(series, "dot", machine, rows, [&](const auto& row) -> const Variables& { return joints(row).q_dot; });
-  addCoordinates(series, "ddot", machine, rows,
+  addCoordinates(columns, "", "", machine, rows, [&](const auto& row) -> const Variables& { return joints(row).q; });
+  addCoordinates(columns, "dot", "_s", machine, rows,
+                 [&](const auto& row) -> const Variables& { return joints(row).q_dot; });
+  addCoordinates(columns, "ddot", "_s2", machine, rows,
                  [&](const auto& row) -> const Variables& { return joints(row).q_ddot; });
 }
 
@@ -175,7 +198,7 @@ ReplayStep notComputed(double t) {
   return {t, none, none, none, none, {std::nan(""), std::nan("")}, std::nan("")};
 }
 
-void addReplay(TimeSeries& series, const std::vector<Motion<double>>& motions,
+void addReplay(Columns& columns, const std::vector<Motion<double>>& motions,
                const std::vector<WindowedReplay>& windows) {
   std::vector<ReplayStep> steps;
   steps.reserve(motions.size());
@@ -192,13 +215,13 @@ void addReplay(TimeSeries& series, const std::vector<Motion<double>>& motions,
     if (angle > 0)
       simulated[k].Q = Eigen::AngleAxisd(angle, steps[k].rotation_error / angle).toRotationMatrix() * simulated[k].Q;
   }
-  addVector(series, "sim_p_{}_m", simulated, [](const Motion<double>& m) { return m.p; });
-  addRotation(series, "sim_q_", simulated);
-  addColumn(series, "error_p_m", steps, [](const ReplayStep& s) { return s.position_error.norm(); });
-  addColumn(series, "error_q_rad", steps, [](const ReplayStep& s) { return s.rotation_error.norm(); });
-  addColumn(series, "closure_p_m", steps, [](const ReplayStep& s) { return s.closure.position; });
-  addColumn(series, "closure_v_m_s", steps, [](const ReplayStep& s) { return s.closure.velocity; });
-  addColumn(series, "error_energy_J", steps, [](const ReplayStep& s) { return s.energy_error; });
+  columns.addPosition("sim_p_{}", simulated, [](const Motion<double>& m) { return m.p; });
+  addRotation(columns, "sim_q_", simulated);
+  columns.add("error_p", "m", steps, [](const ReplayStep& s) { return s.position_error.norm(); });
+  columns.add("error_q", "rad", steps, [](const ReplayStep& s) { return s.rotation_error.norm(); });
+  columns.add("closure_p", "m", steps, [](const ReplayStep& s) { return s.closure.position; });
+  columns.add("closure_v", "m_s", steps, [](const ReplayStep& s) { return s.closure.velocity; });
+  columns.add("error_energy", "J", steps, [](const ReplayStep& s) { return s.energy_error; });
 }
 
 }  // namespace
@@ -206,50 +229,55 @@ void addReplay(TimeSeries& series, const std::vector<Motion<double>>& motions,
 TimeSeries inverseSeries(const Manipulator& machine, const std::vector<Motion<double>>& motions,
                          const std::vector<JointMotion>& joints, const std::vector<Vector6d>& efforts) {
   TimeSeries series;
-  addMotion(series, motions);
-  addJoints(series, machine, joints, [](const JointMotion& row) -> const JointMotion& { return row; });
-  addEfforts(series, "", machine.motors(), efforts, [](const Vector6d& tau) { return tau; });
+  Columns columns(series);
+  addMotion(columns, motions);
+  addJoints(columns, machine, joints, [](const JointMotion& row) -> const JointMotion& { return row; });
+  addEfforts(columns, "", machine.motors(), efforts, [](const Vector6d& tau) { return tau; });
   return series;
 }
 
 TimeSeries simulatedSeries(const Manipulator& machine, const std::vector<Motion<double>>& motions,
                            const std::vector<Vector6d>& efforts) {
   TimeSeries series;
-  addMotion(series, motions);
-  addEfforts(series, "", machine.motors(), efforts, [](const Vector6d& tau) { return tau; });
+  Columns columns(series);
+  addMotion(columns, motions);
+  addEfforts(columns, "", machine.motors(), efforts, [](const Vector6d& tau) { return tau; });
   return series;
 }
 
 TimeSeries validationSeries(const Manipulator& machine, const std::vector<PointwiseSample>& samples,
-                            const std::vector<WindowedReplay>& windows) {
+                            const std::vector<WindowedReplay>& windows, const FrameChange& from) {
   std::vector<Motion<double>> motions;
   motions.reserve(samples.size());
   for (const PointwiseSample& sample : samples) motions.push_back(sample.motion);
   TimeSeries series;
-  addMotion(series, motions);
-  addJoints(series, machine, samples, [](const PointwiseSample& s) -> const JointMotion& { return s.joints; });
-  addEfforts(series, "", machine.motors(), samples, [](const PointwiseSample& s) { return s.torques; });
+  Columns columns(series, &from);
+  addMotion(columns, motions);
+  addJoints(columns, machine, samples, [](const PointwiseSample& s) -> const JointMotion& { return s.joints; });
+  addEfforts(columns, "", machine.motors(), samples, [](const PointwiseSample& s) { return s.torques; });
   using Sample = PointwiseSample;
-  addEfforts(series, "simbody_", machine.motors(), samples, [](const Sample& s) { return s.torques_simbody; });
+  addEfforts(columns, "simbody_", machine.motors(), samples, [](const Sample& s) { return s.torques_simbody; });
   const std::string unit = effortSuffix(machine.motors());
-  addColumn(series, "error_tau_" + unit, samples, [](const Sample& s) { return s.torque.error; });
-  addColumn(series, "limit_tau_" + unit, samples, [](const Sample& s) { return s.torque.limit; });
-  addColumn(series, "error_acceleration_m_s2", samples, [](const Sample& s) { return s.acceleration.error; });
-  addColumn(series, "limit_acceleration_m_s2", samples, [](const Sample& s) { return s.acceleration.limit; });
-  addReplay(series, motions, windows);
+  columns.add("error_tau", unit, samples, [](const Sample& s) { return s.torque.error; });
+  columns.add("limit_tau", unit, samples, [](const Sample& s) { return s.torque.limit; });
+  columns.add("error_acceleration", "m_s2", samples, [](const Sample& s) { return s.acceleration.error; });
+  columns.add("limit_acceleration", "m_s2", samples, [](const Sample& s) { return s.acceleration.limit; });
+  addReplay(columns, motions, windows);
   return series;
 }
 
-void addReactionColumns(const Manipulator& machine, const std::vector<ReactionSample>& reactions, TimeSeries& series) {
-  const std::tuple<const char*, const char*, Vector3d LegReactions::*> columns[] = {{"fA", "N", &LegReactions::f_A},
-                                                                                    {"nA", "Nm", &LegReactions::n_A},
-                                                                                    {"fR", "N", &LegReactions::f_R},
-                                                                                    {"nR", "Nm", &LegReactions::n_R},
-                                                                                    {"fB", "N", &LegReactions::f_B}};
-  for (const auto& [what, unit, member] : columns)
+void addReactionColumns(const Manipulator& machine, const std::vector<ReactionSample>& reactions,
+                        const FrameChange& from, TimeSeries& series) {
+  const std::tuple<const char*, const char*, Vector3d LegReactions::*> parts[] = {{"fA", "N", &LegReactions::f_A},
+                                                                                  {"nA", "Nm", &LegReactions::n_A},
+                                                                                  {"fR", "N", &LegReactions::f_R},
+                                                                                  {"nR", "Nm", &LegReactions::n_R},
+                                                                                  {"fB", "N", &LegReactions::f_B}};
+  Columns columns(series, &from);
+  for (const auto& [what, unit, member] : parts)
     for (std::size_t leg = 0; leg < machine.parameters().legs.size(); ++leg)
-      addVector(series, fmt::format("reaction_{}_{{}}_{}_{}", what, leg + 1, unit), reactions,
-                [leg, member = member](const ReactionSample& row) { return row.recovered[leg].*member; });
+      columns.addVector(fmt::format("reaction_{}_{{}}_{}", what, leg + 1), unit, reactions,
+                        [leg, member = member](const ReactionSample& row) { return row.recovered[leg].*member; });
 }
 
 }  // namespace ursula

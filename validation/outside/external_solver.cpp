@@ -43,11 +43,7 @@ class Process {
 
  private:
   std::string why(LineProcess::End end) {
-    if (end == LineProcess::End::closed) {
-      const std::string ending = process_.ending();
-      const bool is_missing = ending == "ended with exit code 127";  // by sh
-      return ending + (is_missing ? " (command not found)" : "") + " before it had answered";
-    }
+    if (end == LineProcess::End::closed) return process_.ending() + " before it had answered";
     if (end == LineProcess::End::late) return fmt::format("gave no answer within {:g} s", options_.timeout);
     return "answered without an end of line";
   }
@@ -69,6 +65,7 @@ ValidationResult validateExternalSolver(const Scenario& scenario, const External
   const Deadline deadline(validation.time_limit);
   OutsideSolver solver;
   solver.name = options.command;
+  solver.called_by = CalledBy::solver;
   const auto asked = std::make_shared<int>(0);
   solver.torques = [process, deadline, asked, tell = validation.progress](const std::vector<Motion<double>>& motions) {
     std::vector<Vector6d> out;
@@ -84,7 +81,6 @@ ValidationResult validateExternalSolver(const Scenario& scenario, const External
   silent.progress = nullptr;  // the answers take nearly all of the time
   ValidationResult result = validateOutside(scenario, solver, silent);
   process->finish();
-  result.provenance.emplace_back("solver process", options.command);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/wait.h>
 #include <unistd.h>
 #include <algorithm>
 #include <array>
@@ -136,7 +137,9 @@ std::string LineProcess::ending() {
   while (!process_.hasEnded() && now() < deadline) ::poll(nullptr, 0, 1);
   const bool by_itself = process_.hasEnded();
   process_.kill();
-  return by_itself ? process_.howItEnded() : "closed its output";
+  if (!by_itself) return "closed its output";
+  const bool is_missing = WIFEXITED(process_.status()) && WEXITSTATUS(process_.status()) == 127;  // by sh
+  return process_.howItEnded() + (is_missing ? " (command not found)" : "");
 }
 
 void LineProcess::finish(double grace) {

@@ -101,6 +101,7 @@ ValidationResult validateOutside(const Scenario& scenario, const OutsideSolver& 
   const auto asking = std::make_shared<Asking>(solver);
   Subject subject;
   subject.name = solver.name;
+  subject.called_by = solver.called_by;
   subject.torques = [asking](const Motion<double>& motion) { return asking->one(motion); };
   subject.foresee = [asking](const std::vector<Motion<double>>& motions) { asking->foresee(motions); };
   subject.answers = [asking] { return asking->answers(); };

@@ -17,6 +17,7 @@ struct OutsideSolver {
   /// motors, N·m or N, conjugate to the rates of their coordinates. Calls never overlap but may come from different
   /// threads.
   std::function<std::vector<Vector6d>(const std::vector<Motion<double>>&)> torques;
+  CalledBy called_by = CalledBy::program;
 };
 
 /// Validates a scenario with this solver under test. Checks that need a second machine, kinematics or direct dynamics

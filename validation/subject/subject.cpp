@@ -95,18 +95,6 @@ Subject makeSubject(const char* name, const MachineParameters<S>& machine, const
 
 }  // namespace
 
-const char* name(Formulation formulation) {
-  switch (formulation) {
-    case Formulation::noc:
-      return "noc";
-    case Formulation::fast:
-      return "fast";
-    case Formulation::external:
-      break;
-  }
-  return "external";
-}
-
 Vector6d loadAtP(const Load* load, const Motion<double>& motion) {
   if (load == nullptr) return Vector6d::Zero();
   const Wrench<double> wrench = load->at(motion.t);

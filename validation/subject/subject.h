@@ -12,6 +12,7 @@
 #include "model/motion.h"
 #include "model/scenario.h"
 #include "nocsolver/legs/reading.h"
+#include "validation/verdict/result.h"
 
 namespace ursula {
 
@@ -28,11 +29,6 @@ struct Complement {
   Eigen::MatrixXd D, T;
 };
 
-/// The origin of a subject's formulas: the paper as printed, the users' kernels, or another program.
-enum class Formulation { noc, fast, external };
-/// "noc", "fast" or "external".
-const char* name(Formulation formulation);
-
 /// Torques that a subject gave for the commanded motion at t.
 struct Answered {
   double t = 0;
@@ -40,9 +36,7 @@ struct Answered {
 };
 
 /// The solver under test: a source of torques, and possibly of kinematics. It is called with the commanded motion.
-struct Subject {
-  std::string name;
-  Formulation formulation = Formulation::external;
+struct Subject : JudgedSubject {
   std::function<Vector6d(const Motion<double>&)> torques;            ///< N·m, conjugate to φ̇
   std::function<KinematicAnswer(const Motion<double>&)> kinematics;  ///< empty if only torques are judged
   /// [ω̇; p̈] of the platform under torques in the commanded state; empty if the subject lacks direct dynamics.

@@ -114,7 +114,9 @@ TorqueFile torquesOf(const CsvTable& table) {
 }  // namespace
 
 TorqueFile readTorqueFile(const std::filesystem::path& file, const ColumnMap& map, const Motors& motors) {
-  return parseTorqueFile(readCsvText(file), file, map, motors);
+  TorqueFile out = parseTorqueFile(readCsvText(file), file, map, motors);
+  out.is_read = true;
+  return out;
 }
 
 TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path& file, const ColumnMap& map,

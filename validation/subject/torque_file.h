@@ -21,6 +21,7 @@ namespace ursula {
 /// torques are.
 struct TorqueFile {
   std::filesystem::path file;
+  bool is_read = false;                    ///< from the file; else a program gave the numbers
   std::vector<double> t;                   ///< s, finite, increasing
   std::vector<double> time_precision;      ///< s
   std::vector<Vector6d> torques;           ///< N·m or N, conjugate to the motors' rates

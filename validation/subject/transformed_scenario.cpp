@@ -165,8 +165,7 @@ Subject transformed(const Subject& subject, const FrameChange& to) {
   from.origin = -to.origin / units.length;
   from.units = {1 / units.length, 1 / units.mass, 1 / units.time, units.efforts};
   Subject out;
-  out.name = subject.name;
-  out.formulation = subject.formulation;
+  static_cast<JudgedSubject&>(out) = subject;
   out.torques = [=](const Motion<double>& motion) { return to.of(subject.torques(from.of(motion))); };
   if (subject.foresee)
     out.foresee = [=](std::vector<Motion<double>> motions) {

@@ -18,13 +18,21 @@ const char* name(CauseKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-namespace {
+const Check* findCheck(const std::vector<Check>& checks, const std::string& name) {
+  const auto found = std::find_if(checks.begin(), checks.end(), [&](const Check& check) { return check.name == name; });
+  return found == checks.end() ? nullptr : &*found;
+}
+
+bool fails(const std::vector<Check>& checks, const std::string& name) {
+  const Check* check = findCheck(checks, name);
+  return check != nullptr && check->verdict == Verdict::fail;
+}
 
 bool anyIs(const std::vector<Check>& checks, Verdict verdict) {
   return std::any_of(checks.begin(), checks.end(), [verdict](const Check& check) { return check.verdict == verdict; });
 }
 
-}  // namespace
+bool isOf(const Check& check, const std::string& group) { return check.name.rfind(group + ".", 0) == 0; }
 
 const char* name(Verdict verdict) {
   switch (verdict) {
@@ -58,6 +66,17 @@ const char* name(Reason reason) {
       return "reported";
   }
   throw std::logic_error("no such reason");
+}
+
+const char* name(ErrorSource source) {
+  static constexpr const char* names[] = {"model",         "integration", "rounding",           "closure",
+                                          "amplification", "unexplained", "between the samples"};
+  return names[static_cast<std::size_t>(source)];
+}
+
+const char* name(Formulation formulation) {
+  static constexpr const char* names[] = {"noc", "fast", "external"};
+  return names[static_cast<std::size_t>(formulation)];
 }
 
 const char* name(LimitBy limit_by) { return limit_by == LimitBy::user ? "user" : "derived"; }

@@ -122,6 +122,14 @@ struct Check {
   std::string off = {};  ///< the wrong efforts that make it fail, and their cause, in words; else empty
 };
 
+/// Returns nullptr if there is no check of that name.
+const Check* findCheck(const std::vector<Check>& checks, const std::string& name);
+/// Whether the check of that name failed.
+bool fails(const std::vector<Check>& checks, const std::string& name);
+bool anyIs(const std::vector<Check>& checks, Verdict verdict);
+/// Whether the check belongs to a group, such as "torque".
+bool isOf(const Check& check, const std::string& group);
+
 /// Returns `why`, followed by the wrong efforts and their cause.
 std::string whyInFull(const Check& check);
 
@@ -198,9 +206,14 @@ struct SourceOfError {
   double error = 0, uncertainty = 0;
 };
 
+/// The last is what no measured source explains if the efforts are those of a file.
+enum class ErrorSource { model, integration, rounding, closure, amplification, unexplained, between_samples };
+/// "model", "integration", …, "between the samples".
+const char* name(ErrorSource source);
+
 /// The sources of the judged replay's error.
 struct ReplayError {
-  std::string dominant;        ///< "model", "integration", "rounding", "closure", "amplification" or "unexplained"
+  ErrorSource dominant = ErrorSource::unexplained;
   bool measured = false;       ///< false without a replay to analyse: the rest is then empty
   double t = 0, observed = 0;  ///< instant and size of the largest end error, s and m
   SourceOfError rounding, integration, closure, model;
@@ -222,14 +235,31 @@ struct Finding {
 /// Returns the fact in words: "4e-11 m +- 4e-12 m", "0.57, leg 2 at t = 0 s".
 std::string textOf(const Finding& finding);
 
+/// The origin of a subject's formulas: the paper as printed, the users' kernels, or another program.
+enum class Formulation { noc, fast, external };
+/// "noc", "fast" or "external".
+const char* name(Formulation formulation);
+
+/// How a user calls a subject: nothing or a function in a program, `--torques` or `--solver`.
+enum class CalledBy { program, torques, solver };
+
+/// The judged solver or file.
+struct JudgedSubject {
+  std::string name;  ///< "noc", a file's name, a solver's command, a function's name
+  Formulation formulation = Formulation::external;
+  CalledBy called_by = CalledBy::program;
+  std::string map = {};  ///< columns that the user named, as TorqueFile has them
+};
+
 /// The result of one scenario's validation. Provenance keeps its order: (key, value as text).
 struct ValidationResult {
   std::string scenario;
-  std::string formulation;            ///< the subject's: "noc", "fast", or "external"
+  JudgedSubject subject;
   LimitBy limits = LimitBy::derived;  ///< user if a user's limit, wider than the derived one, decided a check
   Verdict verdict = Verdict::fail;
   std::vector<Check> checks;
   std::vector<std::pair<std::string, std::string>> provenance;
+  std::string run;  ///< names the run once its files are made
   /// Facts that are not judged: step counts, condition numbers, the dominant error, …
   std::vector<Finding> findings;
   std::optional<ReplayError> replay_error;   ///< nullopt if the caller left it out
