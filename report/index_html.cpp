@@ -37,9 +37,8 @@ int shade(double share) {
 }
 
 HtmlValue cell(const SuiteEntry& entry, const std::string& name) {
-  const auto check =
-      std::find_if(entry.checks.begin(), entry.checks.end(), [&name](const Check& each) { return each.name == name; });
-  if (check == entry.checks.end() || check->verdict == Verdict::not_applicable) return {{"applies", false}};
+  const Check* check = findCheck(entry.checks, name);
+  if (check == nullptr || check->verdict == Verdict::not_applicable) return {{"applies", false}};
   return {{"applies", true},
           {"verdict", ursula::name(check->verdict)},
           {"shade", shade(limitShare(*check))},

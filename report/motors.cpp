@@ -18,9 +18,8 @@ namespace {
 constexpr double may_remain = 0.01;  // share of a deviation that an explanation may leave, as in the diagnosis
 
 bool areWrong(const ValidationResult& result) {
-  return std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
-    return check.verdict == Verdict::fail && check.name.rfind("torque.", 0) == 0;
-  });
+  return std::any_of(result.checks.begin(), result.checks.end(),
+                     [](const Check& check) { return check.verdict == Verdict::fail && isOf(check, "torque"); });
 }
 
 /// Fits a factor or an offset by least squares, over the instants that have both efforts.

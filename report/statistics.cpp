@@ -88,10 +88,8 @@ std::string statisticsTable(const ValidationResult& result) {
        {"closure_v_m_s", "Gap of the loops, rate", "m/s", ""},
        {"error_energy_J", "Energy less work", "J", ""}}};
   for (const auto& [column, what, unit, check] : columns) {
-    const auto judged = std::find_if(result.checks.begin(), result.checks.end(),
-                                     [name = check](const Check& each) { return each.name == name; });
     if (const std::vector<double>* values = series.find(column))
-      addRow(what, unit, *t, *values, judged == result.checks.end() ? nullptr : &*judged, rows);
+      addRow(what, unit, *t, *values, findCheck(result.checks, check), rows);
   }
   const std::vector<Indexed> efforts = indexed(series, "tau"), expected = indexed(series, "simbody_tau");
   for (std::size_t k = 0; k < efforts.size() && k < expected.size(); ++k) {

@@ -63,9 +63,8 @@ const Check* worstCheck(const std::vector<Check>& checks) {
 }
 
 bool onlyFastFails(const std::vector<Check>& checks) {
-  return std::all_of(checks.begin(), checks.end(), [](const Check& check) {
-    return check.verdict != Verdict::fail || check.name.rfind("fast.", 0) == 0;
-  });
+  return std::all_of(checks.begin(), checks.end(),
+                     [](const Check& check) { return check.verdict != Verdict::fail || isOf(check, "fast"); });
 }
 
 std::string reason(Verdict verdict, const std::vector<Check>& checks) {

@@ -8,6 +8,7 @@
 
 #include "base/scalar.h"
 #include "studies/prove/defects.h"
+#include "validation/subject/body_terms.h"
 
 namespace ursula {
 namespace {
@@ -16,11 +17,6 @@ using P = ManipulatorParameters;
 
 /// This is large relative to rounding, but invisible in a plot.
 constexpr double parameter_error = 1e-6;
-
-/// Returns the tensor of a point mass about a point `arm` away.
-Matrix3d pointInertia(double mass, const Vector3d& arm) {
-  return mass * (arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose());
-}
 
 Matrix3d aboutJoint(const Link& link) {
   return link.inertia + pointInertia(link.mass, link.center_of_mass * Vector3d::UnitZ());

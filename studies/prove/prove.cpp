@@ -30,8 +30,7 @@ class TorqueReference {
   explicit TorqueReference(const Scenario& scenario)
       : samples_(runPointwise(scenario, nocSubject(*scenario.manipulator, scenario.load),
                               equallySpaced(scenario.trajectory->duration(), samples_of_sensitivity))) {
-    for (const PointwiseSample& sample : samples_)
-      largest_ = std::max(largest_, sample.torques_simbody.cwiseAbs().maxCoeff());
+    largest_ = largestTorque(samples_);
   }
 
   /// Returns the change of torque relative to the largest, NaN if an answer is missing; nullopt if nothing is caught.

@@ -18,12 +18,4 @@ inline std::vector<PointwiseSample> rightSamples(const Scenario& scenario, int c
   return runPointwise(scenario, solverOf(scenario), equallySpaced(scenario.trajectory->duration(), count));
 }
 
-/// Simbody's largest torque, N·m.
-inline double largestTorque(const std::vector<PointwiseSample>& samples) {
-  double largest = 0;
-  for (const PointwiseSample& sample : samples)
-    largest = std::max(largest, sample.torques_simbody.cwiseAbs().maxCoeff());
-  return largest;
-}
-
 }  // namespace ursula

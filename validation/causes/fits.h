@@ -31,7 +31,7 @@ struct TorqueTerm {
   std::string name;
   std::string term = {}, body = {};    ///< names in the contract; empty if it has none
   std::optional<double> fixed = {};    ///< known multiple in the residual; empty if it is to be fitted
-  double size = 0;                     ///< size of the physical quantity, if known: gravity, m/s²
+  double gravity = 0;                  ///< m/s², of the part that is gravity's
   std::vector<Vector6d> torques = {};  ///< N·m, one for each motion
 };
 

@@ -56,9 +56,9 @@ std::optional<NamedCause> namedScale(const TorqueTerm& term, double factor) {
   if (term.term.empty()) return std::nullopt;
   if (std::abs(factor) < 1e-3) return NamedCause{CauseKind::missing_term, term.term, term.body};
   if (std::abs(factor + 1) < 1e-3) return NamedCause{CauseKind::sign, term.term, term.body};
-  if (term.name == "gravity")
-    return NamedCause{CauseKind::parameter, "gravity", "all", "manipulator.gravity", "m/s^2", term.size,
-                      term.size * factor};
+  if (term.gravity > 0)
+    return NamedCause{CauseKind::parameter, "gravity", "all", "manipulator.gravity", "m/s^2", term.gravity,
+                      term.gravity * factor};
   const CauseKind kind = inDegrees(factor).empty() ? CauseKind::scale : CauseKind::units;
   return NamedCause{kind, term.term, term.body, "", "", 1, factor};
 }
@@ -74,7 +74,7 @@ std::optional<Hypothesis> scaledTerm(const TorqueResidual& data, const TorqueTer
   std::string text = fmt::format("{} scaled by {}", term.name, factorText(c));
   if (std::abs(factor) < 1e-3) text = term.name + " left out";
   if (std::abs(factor + 1) < 1e-3) text = term.name + " with the wrong sign";
-  if (term.name == "gravity") text += knownGravity(term.size * factor);
+  if (term.gravity > 0) text += knownGravity(term.gravity * factor);
   text += inDegrees(factor);
   Hypothesis out = hypothesis(data, text, left, 1);
   out.named = namedScale(term, factor);

@@ -10,7 +10,6 @@
 #include "base/real50.h"
 #include "nocsolver/solver.h"
 #include "validation/limits/conditioning.h"
-#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
@@ -165,7 +164,7 @@ Limits widenedBy(const ExactPieces& exact, const ExactPieces& halved, Limits lim
 
 /// The deviations nearest to their limits; `where` is 0 for the point, 1 for the orientation, 2 for orthonormality.
 struct Deviations {
-  NearestToLimit pose, twist, twist_rate;
+  WorstShare pose, twist, twist_rate;
   int instants = 0;
 };
 
@@ -220,11 +219,11 @@ Deviations deviationsOf(const Trajectory& trajectory, double length, const Hidde
   return out;
 }
 
-Check judgedAs(const std::string& name, const NearestToLimit& shown, const std::string& unit, const std::string& what,
+Check judgedAs(const std::string& name, const WorstShare& shown, const std::string& unit, const std::string& what,
                int instants, bool exact) {
   constexpr std::array<const char*, 3> parts{"point P", "orientation, times the machine's length",
                                              "Q'Q - 1, times the machine's length"};
-  if (shown.where < 0) return notMade(name, unit, "no instant was compared");
+  if (!shown.any) return notMade(name, unit, "no instant was compared");
   const std::string doubles =
       exact ? "" : "; 250 eps over the step, to the order of the derivative, and twice what halving the step changes";
   return judged(

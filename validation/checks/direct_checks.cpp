@@ -7,12 +7,9 @@
 
 #include "nocsolver/errors.h"
 #include "validation/samples/pointwise.h"
-#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
-
-double spin(const Vector6d& v, double length) { return v.tail<3>().norm() + length * v.head<3>().norm(); }
 
 std::string motorChanged(int where) { return where < 0 ? "as commanded" : fmt::format("motor {} changed", where + 1); }
 
@@ -28,9 +25,9 @@ Check judgeAnswers(const char* check, const char* what, const std::function<void
   double size = 0;
   try {
     each([&](const DirectAnswer& simbody, const Conditioning& at, int motor) {
-      size = std::max(size, spin(simbody.twist_rate, at.length));
+      size = std::max(size, twistSize(simbody.twist_rate, at.length));
       const Vector6d found = subject.accelerations(simbody.state, simbody.torques);
-      const double error = spin(found - simbody.twist_rate, at.length);
+      const double error = twistSize(found - simbody.twist_rate, at.length);
       worst.add(error, look.limit(error, at, Rounded::direct, simbody.state, 1, &simbody.torques), simbody.state.t,
                 motor);
     });

@@ -8,7 +8,6 @@
 #include "validation/limits/conditioning.h"
 #include "validation/limits/rounding_profile.h"
 #include "validation/samples/pointwise.h"
-#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
@@ -38,23 +37,18 @@ Check judgeEngine(const std::vector<EngineSample>& samples, std::size_t k, const
                   const std::vector<PointwiseSample>& conditions) {
   const EngineKind& kind = further_engines[k];
   if (samples.empty()) return notMade(kind.check, units.efforts.unit, "no instant was compared");
-  const WorstShare shown = compareEngines(samples, [k](const EngineSample& sample) {
+  const WorstShare worst = compareEngines(samples, [k](const EngineSample& sample) {
     return Pair{&sample.subject, given(sample.further[k]), sample.limits[k]};
   });
   double torque = 0;
   for (const EngineSample& sample : samples) torque = std::max(torque, sample.further[k]->cwiseAbs().maxCoeff());
-  const CheckedQuantity quantity{kind.check, units.efforts.unit, torque};
-  const JudgedValue at = shown.shown(quantity.useful());
-  Check check = judgedIfUseful(
-      quantity, shown,
-      fmt::format(
-          "eps kappa(B) kappa(legs) x || |T|' |w| || x {:g} x the spread measured in turned and rescaled frames",
-          rounding_safety),
-      fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s, {}", kind.made_of, samples.size(),
-                  at.t * units.time, motorName(units, at.where)),
-      causeOfRounding(conditions, shown.widest_t));
-  check.largest = {shown.largest, shown.largest_t * units.time, motorName(units, shown.largest_where)};
-  return check;
+  return judgedShown(
+      {kind.check, units.efforts.unit, torque}, worst, units,
+      {fmt::format(
+           "eps kappa(B) kappa(legs) x || |T|' |w| || x {:g} x the spread measured in turned and rescaled frames",
+           rounding_safety),
+       fmt::format("torques against {}, at {} instants", kind.made_of, samples.size()), motorsOf(units),
+       causeOfRounding(conditions, worst.widest_t)});
 }
 
 /// A formulation and its name for oddOneOut.
@@ -136,7 +130,7 @@ const Kernel kernels[] = {
 /// The size of a difference or an answer: the largest effort, or a twist rate with rotations times the length.
 double sizeOf(const Kernel& kernel, const Vector6d& v, double length) {
   if (kernel.unit == in_effort_units) return v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-  return v.tail<3>().norm() + length * v.head<3>().norm();
+  return twistSize(v, length);
 }
 
 Check judgeKernel(const Kernel& kernel, const FastSamples& fast, const std::vector<PointwiseSample>& samples,
@@ -162,18 +156,12 @@ Check judgeKernel(const Kernel& kernel, const FastSamples& fast, const std::vect
                 static_cast<int>(s));
     }
   }
-  const auto setOf = [&](int where) {
-    return where < 0 ? "" : std::string(nameOf(fast.answers[static_cast<std::size_t>(where)].set));
-  };
-  const CheckedQuantity quantity{kernel.check, unit, size};
-  const JudgedValue shown = worst.shown(quantity.useful());
-  Check check = judgedIfUseful(
-      quantity, worst, "twice the rounding of the NOC: both sides round",
-      fmt::format("{} by the fast kernels against the NOC, at {} instants, with {}; shown for t = {:.6g} s, {}",
-                  kernel.what, fast.samples.size(), sets, shown.t * units.time, setOf(shown.where)),
-      causeOfRounding(samples, worst.widest_t, kernel.rounded));
-  check.largest = {worst.largest, worst.largest_t * units.time, setOf(worst.largest_where)};
-  return check;
+  const auto setOf = [&](int where) { return nameOf(fast.answers[static_cast<std::size_t>(where)].set); };
+  return judgedShown({kernel.check, unit, size}, worst, units,
+                     {"twice the rounding of the NOC: both sides round",
+                      fmt::format("{} by the fast kernels against the NOC, at {} instants, with {}", kernel.what,
+                                  fast.samples.size(), sets),
+                      setOf, causeOfRounding(samples, worst.widest_t, kernel.rounded)});
 }
 
 }  // namespace
@@ -192,17 +180,12 @@ Check judgeAgainstNoc(const ExternalTorques& torques, const Units& units) {
     worst.add(each.error, each.limit, torques.file.t[k], each.where);
     quantity.given = std::max(quantity.given, each.given);
   }
-  for (const PointwiseSample& sample : torques.samples)
-    quantity.size = std::max(quantity.size, sample.torques_simbody.cwiseAbs().maxCoeff());
+  quantity.size = largestTorque(torques.samples);
   if (!worst.any) return notMade(quantity.name, quantity.unit, "no instant was compared");
-  const JudgedValue shown = worst.shown(quantity.useful());
-  Check check =
-      judgedIfUseful(quantity, worst, "as for torque.pointwise",
-                     fmt::format("torques against this program's NOC, at {} instants; shown for t = {:.6g} s, {}",
-                                 torques.file.rows(), shown.t * units.time, motorName(units, shown.where)),
-                     causeOfRounding(torques.samples, worst.widest_t));
-  check.largest = {worst.largest, worst.largest_t * units.time, motorName(units, worst.largest_where)};
-  return check;
+  return judgedShown(quantity, worst, units,
+                     {"as for torque.pointwise",
+                      fmt::format("torques against this program's NOC, at {} instants", torques.file.rows()),
+                      motorsOf(units), causeOfRounding(torques.samples, worst.widest_t)});
 }
 
 }  // namespace ursula

@@ -26,10 +26,6 @@ std::vector<std::string> checksOfFurtherEngines() {
   return names;
 }
 
-bool anyFails(const std::vector<Check>& checks) {
-  return std::any_of(checks.begin(), checks.end(), [](const Check& each) { return each.verdict == Verdict::fail; });
-}
-
 const RoundingProfile& profileOf(const Evidence& e) { return e.reference->rounding().profile; }
 
 std::vector<Check> judgeMotion(const Evidence& e) { return judgeCommandedMotion(*e.given); }
@@ -45,12 +41,7 @@ std::vector<Check> judgeSamples(const Evidence& e) {
 /// If NOC and fast kernels differ at the samples already, comparing them between samples is meaningless.
 std::vector<Check> judgeBetweenSamples(const Evidence& e) {
   const bool by_fast = e.subject->formulation == Formulation::noc;
-  const auto inverseFails = [&e] {
-    const std::vector<Check> fast = judgeFast(e.fast, e.samples, e.units());
-    return std::any_of(fast.begin(), fast.end(),
-                       [](const Check& each) { return each.name == "fast.inverse" && each.verdict == Verdict::fail; });
-  };
-  if (by_fast && inverseFails())
+  if (by_fast && fails(judgeFast(e.fast, e.samples, e.units()), "fast.inverse"))
     return {notJudgeable(Reason::not_covered, "torque.between", std::nan(""), std::nan(""), e.units().efforts.unit, "",
                          "the NOC is compared with the fast kernels there, which differ from it at the samples "
                          "already; torque.pointwise and fast.inverse tell which of them is wrong")};
@@ -72,24 +63,21 @@ std::vector<Check> judgeWindows(const Evidence& e, const std::vector<WindowedRep
   return judgeReplay(windows, e.scales.position, e.scales.length, e.scales.forces, e.units(), cause);
 }
 
-std::vector<Check> notReplayed(double value, double limit, const std::string& basis, const std::string& why) {
+std::vector<Check> notReplayed(double limit, const std::string& basis, const std::string& why) {
   std::vector<Check> checks;
   const std::pair<const char*, const char*> names[] = {{"replay.position", "m"},
                                                        {"replay.orientation", "rad"},
                                                        {"closure.position", "m"},
                                                        {"closure.velocity", "m/s"},
                                                        {"energy.balance", "J"}};
-  for (const auto& [name, unit] : names) {
-    const bool has_numbers = std::string(name) == "replay.position";
-    checks.push_back(notJudgeable(Reason::not_covered, name, has_numbers ? value : std::nan(""),
-                                  has_numbers ? limit : std::nan(""), unit, basis, why));
-  }
+  for (const auto& [name, unit] : names)
+    checks.push_back(notJudgeable(Reason::not_covered, name, std::nan(""), std::nan(""), unit, basis, why));
+  checks.front().limit = limit;
   return checks;
 }
 
 std::vector<Check> judgeReplays(const Evidence& e) {
-  if (!e.not_replayed.empty())
-    return notReplayed(std::nan(""), e.replay_bound, e.spline, "not replayed: " + e.not_replayed);
+  if (!e.not_replayed.empty()) return notReplayed(e.replay_bound, e.spline, "not replayed: " + e.not_replayed);
   std::vector<Check> checks = judgeWindows(e, e.windows);
   if (!e.spline.empty())
     for (Check& check : checks) check.basis += "; " + e.spline;
@@ -101,7 +89,7 @@ bool replayed(const Evidence& e) { return e.has.out_of_time.empty() || !e.window
 
 void lookAtReplays(Evidence& e) {
   for (std::size_t k = 0; k < e.windows.size() && e.reference != nullptr; ++k)
-    if (anyFails(judgeWindows(e, {e.windows[k]}))) refineWindow(e, k);
+    if (anyIs(judgeWindows(e, {e.windows[k]}), Verdict::fail)) refineWindow(e, k);
 }
 
 /// False if time ran out before the kernels were called.
@@ -127,10 +115,7 @@ void lookAtLadder(Evidence& e) {
 }
 
 std::vector<Check> judgeStabilisedReplay(const Evidence& e) {
-  double largest = 0;
-  for (const PointwiseSample& sample : e.samples)
-    largest = std::max(largest, sample.torques_simbody.cwiseAbs().maxCoeff());
-  return {judgeStabilised(*e.stabilised, largest, e.units())};
+  return {judgeStabilised(*e.stabilised, largestTorque(e.samples), e.units())};
 }
 
 void append(std::vector<Check>& checks, std::vector<Check> more) {
@@ -218,7 +203,7 @@ std::vector<Check> judgeAll(Evidence& evidence) {
   for (const CheckFamily& family : checkFamilies()) {
     if (!family.applies(evidence)) continue;
     const bool ready = inTime([&] {
-      if (family.second_look && anyFails(family.judge(evidence))) family.second_look(evidence);
+      if (family.second_look && anyIs(family.judge(evidence), Verdict::fail)) family.second_look(evidence);
     });
     if (ready) left.push_back(&family);
   }

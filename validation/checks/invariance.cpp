@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "validation/samples/pointwise.h"
-#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
@@ -37,23 +36,17 @@ Check judgeInvariance(const InvarianceSamples& sides, const std::vector<Pointwis
   if (sides.found.empty()) return notMade(words.check, units.efforts.unit, "no instant was compared");
   RemeasuredLimits look(profile);
   WorstShare worst;
-  double torque = 0;
   for (std::size_t k = 0; k < sides.found.size(); ++k) {
     const PointwiseSample& sample = samples[k];
     Eigen::Index leg = 0;
     const double error = (sides.expected[k] - sides.found[k]).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg);
     worst.add(error, look.limit(error, sample.conditioning, Rounded::solver, sample.motion, 2), sample.motion.t,
               static_cast<int>(leg));
-    torque = std::max(torque, sample.torques_simbody.cwiseAbs().maxCoeff());
   }
-  const CheckedQuantity quantity{words.check, units.efforts.unit, torque};
-  const JudgedValue at = worst.shown(quantity.useful());
-  Check check = judgedIfUseful(quantity, worst, "twice the solver's own rounding: both sides round",
-                               fmt::format("{}, at {} instants; shown for t = {:.6g} s, {}", words.what, samples.size(),
-                                           at.t * units.time, motorName(units, at.where)),
-                               causeOfRounding(samples, worst.widest_t));
-  check.largest = {worst.largest, worst.largest_t * units.time, motorName(units, worst.largest_where)};
-  return check;
+  return judgedShown({words.check, units.efforts.unit, largestTorque(samples)}, worst, units,
+                     {"twice the solver's own rounding: both sides round",
+                      fmt::format("{}, at {} instants", words.what, samples.size()), motorsOf(units),
+                      causeOfRounding(samples, worst.widest_t)});
 }
 
 }  // namespace

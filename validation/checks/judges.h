@@ -22,11 +22,28 @@
 #include "validation/subject/frame_change.h"
 #include "validation/subject/subject.h"
 #include "validation/verdict/result.h"
+#include "validation/verdict/worst_share.h"
 
 // The functions that judge turn what experiments found into checks with a value, a limit and a verdict. families.cpp
 // says which of them judge a subject. `units` convert to SI for the words.
 
 namespace ursula {
+
+/// The words of a check that compares many instants.
+struct ShownWords {
+  std::string basis;
+  std::string what;                             ///< precedes the instant that is shown, and its place
+  std::function<std::string(int where)> place;  ///< names a place; null if there are none
+  std::string cause;                            ///< of a wide limit
+  std::string further = {};                     ///< follows the place
+};
+
+/// judgedIfUseful() with the words "…; shown for t = 1 s, leg 2", and with the largest value. `units` convert to SI.
+Check judgedShown(const CheckedQuantity& quantity, const WorstShare& worst, const Units& units,
+                  const ShownWords& words);
+
+/// Names the motors' places; `units` must outlive it.
+std::function<std::string(int where)> motorsOf(const Units& units);
 
 /// Checks the commanded motion and the load: `motion.pose`, `.twist`, `.twist_rate`, and `motion.load` if there is a
 /// load. All formulations share these and so cannot check them. No solver's results are used.

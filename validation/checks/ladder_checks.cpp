@@ -7,8 +7,6 @@
 #include <cmath>
 #include <functional>
 
-#include "validation/verdict/worst_share.h"
-
 namespace ursula {
 namespace {
 

@@ -9,7 +9,6 @@
 #include "base/real50.h"
 #include "validation/checks/quintic_by_control_points.h"
 #include "validation/limits/conditioning.h"
-#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
@@ -73,7 +72,7 @@ const char* componentName(int k) {
 }
 
 void compareRows(const std::vector<TimedWrench>& rows, const std::function<Wrench<double>(double)>& at,
-                 NearestToLimit& shown) {
+                 WorstShare& shown) {
   const auto compare = [&](double t, const TimedWrench& row) {
     const Vector6d error = stacked(at(t)) - stacked(row.wrench);
     for (int k = 0; k < 6; ++k) shown.add(std::abs(error(k)), 0, t, k);
@@ -85,8 +84,7 @@ void compareRows(const std::vector<TimedWrench>& rows, const std::function<Wrenc
 }
 
 /// At one instant within segment i, compares with the other evaluation and with the range of both rows.
-void compareWithin(const Table& table, std::size_t i, double s, double t, const Vector6d& found,
-                   NearestToLimit& shown) {
+void compareWithin(const Table& table, std::size_t i, double s, double t, const Vector6d& found, WorstShare& shown) {
   for (int k = 0; k < 6; ++k) {
     const Segment segment = table.segment(i, k);
     const double a = table.value(i, k), b = table.value(i + 1, k), limit = segment.limit(s);
@@ -100,7 +98,7 @@ void compareWithin(const Table& table, std::size_t i, double s, double t, const 
 
 Check judgeLoadTable(const std::vector<TimedWrench>& rows, const std::function<Wrench<double>(double)>& at) {
   if (rows.size() < 2) return notMade("motion.load", "N, N m", "a table of fewer than two rows");
-  NearestToLimit shown;
+  WorstShare shown;
   compareRows(rows, at, shown);
   const Table table(rows);
   constexpr std::size_t most_segments = 40;  // of thousands, because 50 digits are expensive
@@ -122,7 +120,7 @@ Check judgeLoadTable(const std::vector<TimedWrench>& rows, const std::function<W
 Check judgeLoad(const Load& load, double duration) {
   if (load.history) return judgeLoadTable(load.history->rows(), [&](double t) { return load.at(t); });
   const Vector6d constant = stacked({load.force, load.moment});
-  NearestToLimit shown;
+  WorstShare shown;
   for (const double t : {0.0, 0.3 * duration, duration}) {
     const Vector6d error = stacked(load.at(t)) - constant;
     for (int k = 0; k < 6; ++k) shown.add(std::abs(error(k)), 0, t, k);

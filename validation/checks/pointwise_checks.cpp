@@ -9,11 +9,11 @@
 #include "validation/limits/conditioning.h"
 #include "validation/limits/engine_view.h"
 #include "validation/samples/pointwise.h"
-#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
 
+/// Every limit is a derived shape times a level.
 enum class Level { measured, derived };
 
 struct Quantity {
@@ -25,7 +25,7 @@ struct Quantity {
   const char* further = "";                            ///< further terms of the limit, in words
 };
 
-/// Every limit is a derived shape times a level. The level is measured (RoundingProfile) or derived (rounding_depth).
+/// The level is measured (RoundingProfile) or derived (rounding_depth).
 std::string basisOf(const Quantity& quantity, Level level) {
   return level == Level::measured
              ? fmt::format("eps {} x {:g} x the spread measured in turned and rescaled frames{}", quantity.shape,
@@ -36,12 +36,6 @@ std::string basisOf(const Quantity& quantity, Level level) {
 const PointwiseSample& sampleAt(const std::vector<PointwiseSample>& samples, double t) {
   return *std::find_if(samples.begin(), std::prev(samples.end()),
                        [t](const PointwiseSample& sample) { return sample.motion.t == t; });
-}
-
-double largestSize(const std::vector<PointwiseSample>& samples, const Quantity& quantity) {
-  double largest = 0;
-  for (const PointwiseSample& sample : samples) largest = std::max(largest, quantity.size(sample));
-  return largest;
 }
 
 /// Stands for the unit of the machine's efforts; `where` is then a motor.
@@ -55,25 +49,22 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quanti
     return is_effort ? motorName(units, where) : placeName(where, quantity.of_body);
   };
   WorstShare worst;
-  double given = 0;  // possible error from a file's missing digits, which does not make a limit useless
+  CheckedQuantity of{quantity.name, quantity.unit};
   for (const PointwiseSample& sample : samples) {
     if (!sample.refused.empty()) return notMade(quantity.name, quantity.unit, "no answer: " + sample.refused);
     const Deviation& deviation = sample.*quantity.deviation;
     worst.add(deviation.error, deviation.limit, sample.motion.t, deviation.where);
-    given = std::max(given, deviation.given);
+    of.size = std::max(of.size, quantity.size(sample));
+    of.given = std::max(of.given, deviation.given);
   }
   if (!worst.any) return notMade(quantity.name, quantity.unit, "no instant was compared");
-  const CheckedQuantity of{quantity.name, quantity.unit, largestSize(samples, quantity), given};
-  const JudgedValue shown = worst.shown(of.useful());
-  const Conditioning& c = sampleAt(samples, shown.t).conditioning;
+  const Conditioning& c = sampleAt(samples, worst.shown(of.useful()).t).conditioning;
   const std::string basis =
       fmt::format("{}; there kappa(B) = {:.3g}, kappa(legs) = {:.3g}, eps = {:.3g}", basisOf(quantity, level),
                   c.kappa_B, c.kappa_legs, Eigen::NumTraits<double>::epsilon());
-  const std::string why = fmt::format("{}, at {} instants; shown for t = {:.6g} s, {}", quantity.what, samples.size(),
-                                      shown.t * units.time, nameOf(shown.where));
-  Check check = judgedIfUseful(of, worst, basis, why, causeOfRounding(samples, worst.widest_t));
-  check.largest = {worst.largest, worst.largest_t * units.time, nameOf(worst.largest_where)};
-  return check;
+  return judgedShown(of, worst, units,
+                     {basis, fmt::format("{}, at {} instants", quantity.what, samples.size()), nameOf,
+                      causeOfRounding(samples, worst.widest_t)});
 }
 
 const std::vector<Quantity>& kinematicQuantities() {
@@ -129,6 +120,21 @@ bool isOfJointsOrTorque(const Quantity& quantity) {
 
 }  // namespace
 
+Check judgedShown(const CheckedQuantity& quantity, const WorstShare& worst, const Units& units,
+                  const ShownWords& words) {
+  const JudgedValue shown = worst.shown(quantity.useful());
+  const auto place = [&words](int where) { return words.place ? words.place(where) : ""; };
+  const std::string why = fmt::format("{}; shown for t = {:.6g} s{}{}{}", words.what, shown.t * units.time,
+                                      words.place ? ", " : "", place(shown.where), words.further);
+  Check check = judgedIfUseful(quantity, worst, words.basis, why, words.cause);
+  check.largest = {worst.largest, worst.largest_t * units.time, place(worst.largest_where)};
+  return check;
+}
+
+std::function<std::string(int where)> motorsOf(const Units& units) {
+  return [&units](int where) { return motorName(units, where); };
+}
+
 std::vector<Check> judgeJointsAndTorques(const std::vector<PointwiseSample>& samples, const Units& units) {
   std::vector<Check> checks;
   for (const auto* quantities : {&kinematicQuantities(), &dynamicQuantities()})
@@ -164,13 +170,10 @@ std::vector<Check> judgeComplement(const std::vector<ComplementSample>& samples,
     at = sample.t;
     shown = &sample;
   }
-  const CheckedQuantity quantity{orthogonality, "", 1};
-  Check product =
-      judgedIfUseful(quantity, worst, "eps x kappa(B) kappa(legs) x what roundings add up to at most, of ||D|| ||T||",
-                     fmt::format("|| D T || over || D || || T || (33), at {} instants; shown for t = {:.6g} s",
-                                 samples.size(), worst.shown(quantity.useful()).t * units.time),
-                     "a singular pose or a stretched leg is near");
-  product.largest = {worst.largest, worst.largest_t * units.time, ""};
+  const Check product = judgedShown({orthogonality, "", 1}, worst, units,
+                                    {"eps x kappa(B) kappa(legs) x what roundings add up to at most, of ||D|| ||T||",
+                                     fmt::format("|| D T || over || D || || T || (33), at {} instants", samples.size()),
+                                     nullptr, "a singular pose or a stretched leg is near"});
   Check ranks = judged(rank, missing, 0, "", "D leaves six freedoms, T spans them",
                        fmt::format("D has rank {} of {}, T has rank {} of {}, at t = {:.6g} s", shown->rank_D,
                                    shown->wanted_D, shown->rank_T, shown->wanted_T, at * units.time));
@@ -201,19 +204,17 @@ Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::ve
     }
   }
   if (!worst.any) return notMade("reactions.pointwise", "N", "no instant was compared");
-  const CheckedQuantity quantity{"reactions.pointwise", "N", size};
-  const JudgedValue shown = worst.shown(quantity.useful());
-  Check check = judgedIfUseful(
-      quantity, worst,
-      fmt::format("eps (kappa(B)^2 kappa(legs) x || |T|' |w| || / length + largest mass x the acceleration's) x {:g} x "
-                  "the spread measured in turned and rescaled frames",
-                  rounding_safety),
-      fmt::format("forces, and moments over the machine's length, at all joints against Simbody's mobilizer and "
-                  "constraint reactions, at {} instants; shown for t = {:.6g} s, leg {}; the largest is {:.6g} N",
-                  samples.size(), shown.t * units.time, shown.where + 1, size * units.force()),
-      causeOfRounding(samples, worst.widest_t));
-  check.largest = {worst.largest, worst.largest_t * units.time, placeName(worst.largest_where, false)};
-  return check;
+  return judgedShown(
+      {"reactions.pointwise", "N", size}, worst, units,
+      {fmt::format(
+           "eps (kappa(B)^2 kappa(legs) x || |T|' |w| || / length + largest mass x the acceleration's) x {:g} x "
+           "the spread measured in turned and rescaled frames",
+           rounding_safety),
+       fmt::format("forces, and moments over the machine's length, at all joints against Simbody's mobilizer and "
+                   "constraint reactions, at {} instants",
+                   samples.size()),
+       [](int leg) { return placeName(leg, false); }, causeOfRounding(samples, worst.widest_t),
+       fmt::format("; the largest is {:.6g} N", size * units.force())});
 }
 
 }  // namespace ursula

@@ -7,7 +7,6 @@
 #include "validation/limits/conditioning.h"
 #include "validation/replay/observed_order.h"
 #include "validation/replay/replay.h"
-#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {

@@ -44,16 +44,12 @@ void judgeByUser(const std::vector<AcceptanceLimit>& acceptance, ValidationResul
 
 namespace {
 
-bool startsWith(const std::string& text, const char* with) { return text.rfind(with, 0) == 0; }
-
-bool isOfTorques(const Check& check) {
-  return startsWith(check.name, "torque.") && check.verdict != Verdict::not_applicable;
-}
+bool isOfTorques(const Check& check) { return isOf(check, "torque") && check.verdict != Verdict::not_applicable; }
 
 /// Whether the check shows effects of torque errors on the motion, or only how torques are computed.
 bool isReported(const Check& check) {
-  for (const char* group : {"acceleration.", "replay.", "closure.", "energy.", "feedback.", "invariance."})
-    if (startsWith(check.name, group)) return true;
+  for (const char* group : {"acceleration", "replay", "closure", "energy", "feedback", "invariance"})
+    if (isOf(check, group)) return true;
   return check.name == "integration.ladder" || check.name == "integration.second";
 }
 
@@ -66,13 +62,9 @@ bool isNamed(const std::vector<AcceptanceLimit>& acceptance, const std::string& 
 double driftOf(const Evidence& evidence, double size) {
   if (evidence.amplification == nullptr || evidence.samples.empty()) return std::numeric_limits<double>::quiet_NaN();
   const std::vector<PointwiseSample>& samples = evidence.samples;
-  const auto response = [&samples](double t) {
-    const auto after = std::lower_bound(samples.begin(), samples.end(), t,
-                                        [](const PointwiseSample& each, double x) { return each.motion.t < x; });
-    return (after == samples.end() ? samples.back() : *after).conditioning.response;
-  };
-  return evidence.amplification->carriedBound(0, evidence.scenario->trajectory->duration(),
-                                              [&](double t) { return response(t) * size; });
+  return evidence.amplification->carriedBound(0, evidence.scenario->trajectory->duration(), [&](double t) {
+    return samples[indexFrom(samples, t)].conditioning.response * size;
+  });
 }
 
 /// The largest effort of the whole motion, in natural units; it is the same for all subjects and instants.

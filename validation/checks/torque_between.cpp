@@ -7,7 +7,6 @@
 
 #include "nocsolver/errors.h"
 #include "validation/samples/pointwise.h"
-#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
@@ -54,9 +53,7 @@ class SampledTorqueLimit {
  public:
   explicit SampledTorqueLimit(const std::vector<PointwiseSample>& samples) : samples_(samples) {}
   double at(double t) const {
-    const auto after = std::lower_bound(samples_.begin(), samples_.end(), t,
-                                        [](const PointwiseSample& each, double x) { return each.motion.t < x; });
-    const auto i = std::min(static_cast<std::size_t>(after - samples_.begin()), samples_.size() - 1);
+    const std::size_t i = indexFrom(samples_, t);
     return std::min(limitOf(i), limitOf(i == 0 ? 0 : i - 1));
   }
 
@@ -125,16 +122,11 @@ Check checkOf(const Comparison& comparison, const std::string& what, double gap,
               const std::vector<PointwiseSample>& samples, const Units& units) {
   const WorstShare& worst = comparison.worst();
   const CheckedQuantity quantity{check_name, units.efforts.unit, comparison.size()};
-  const JudgedValue shown = worst.shown(quantity.useful());
-  Check out = judgedIfUseful(
-      quantity, worst, "as for torque.pointwise, at each instant",
-      fmt::format(
-          "{}; shown for t = {:.6g} s, {}; a pulse longer than {:.2g} s and larger than {:.2g} {} would have been seen",
-          what, shown.t * units.time, motorName(units, shown.where), gap * units.time,
-          std::min(worst.widest_limit, quantity.useful()) * units.effort(), units.efforts.unit),
-      causeOfRounding(samples, worst.widest_t));
-  out.largest = {worst.largest, worst.largest_t * units.time, motorName(units, worst.largest_where)};
-  return out;
+  return judgedShown(
+      quantity, worst, units,
+      {"as for torque.pointwise, at each instant", what, motorsOf(units), causeOfRounding(samples, worst.widest_t),
+       fmt::format("; a pulse longer than {:.2g} s and larger than {:.2g} {} would have been seen", gap * units.time,
+                   std::min(worst.widest_limit, quantity.useful()) * units.effort(), units.efforts.unit)});
 }
 
 }  // namespace

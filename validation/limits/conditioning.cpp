@@ -241,9 +241,8 @@ Conditioning ConditioningProbe::at(const Motion<double>& motion) {
   out.effort_scale = effortScale(solver_, motion, work_, out.length);
   setPositions(manipulator_, motion, bodies, out);
   for (const BodyMotion<double>& body : bodies) {
-    out.twist_scale = std::max(out.twist_scale, body.twist.tail<3>().norm() + out.length * body.twist.head<3>().norm());
-    out.rate_scale =
-        std::max(out.rate_scale, body.twist_rate.tail<3>().norm() + out.length * body.twist_rate.head<3>().norm());
+    out.twist_scale = std::max(out.twist_scale, twistSize(body.twist, out.length));
+    out.rate_scale = std::max(out.rate_scale, twistSize(body.twist_rate, out.length));
   }
   out.rate_scale += out.twist_scale * out.twist_scale / out.length;
   if (hasRotors(manipulator_)) out.torque_scale += rotorScale(manipulator_, T_P, out.rate_scale);

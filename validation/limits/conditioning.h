@@ -61,6 +61,9 @@ constexpr RoundingLevels uniformLevels(double level) {
   return levels;
 }
 
+/// The size of a twist or its rate, [angular; linear], with rotations times `length`.
+inline double twistSize(const Vector6d& v, double length) { return v.tail<3>().norm() + length * v.head<3>().norm(); }
+
 /// The conditioning of both formulations at one instant, with the factors of every pointwise limit. A limit's shape,
 /// its growth with pose and machine, is derived; its level is measured (RoundingProfile). No number here depends on the
 /// machine's frame. It always uses the correct formulas, never the subject. See docs/validation.md.

@@ -19,8 +19,6 @@ constexpr unsigned frame_changes = 3;
 /// Number of instants on either side whose spread counts.
 constexpr std::size_t neighbours = 2;
 
-double twistSize(const Vector6d& v, double length) { return v.tail<3>().norm() + length * v.head<3>().norm(); }
-
 /// The largest difference of ψ, θ and d. φ depends on the frame, so the axis x of the leg's plane is compared.
 double angleDistance(const Manipulator& machine, const JointVariables<double>& a, const JointVariables<double>& b,
                      const BodyMotions<double>& of_a, const BodyMotions<double>& of_b, double length) {

@@ -12,22 +12,17 @@ namespace {
 
 using Machine = ManipulatorParameters;
 
-/// m (r² 1 − r rᵀ).
-Matrix3d momentsOf(double mass, const Vector3d& r) {
-  return mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
-}
-
 void addInertiaPoints(TriedCauses& out) {
   const NamedCause of_platform{CauseKind::reference_point, "inertia", "platform"};
   for (const auto& [sign, text] : {std::pair(1, " about {} used as about the mass centre"),
                                    {-1, ", about the mass centre, taken for such about {}"}})
     out.addLinks(
         "inertias of ", fmt::format(fmt::runtime(text), "the first joint"), CauseKind::reference_point, "inertia",
-        [sign = sign](Link& one) { one.inertia += sign * momentsOf(one.mass, Vector3d(0, 0, one.center_of_mass)); });
+        [sign = sign](Link& one) { one.inertia += sign * pointInertia(one.mass, Vector3d(0, 0, one.center_of_mass)); });
   for (const auto& [sign, text] : {std::pair(1, "inertia of the platform about P used as about its mass centre"),
                                    {-1, "inertia of the platform, about its mass centre, taken for such about P"}})
     out.addMachine({text, of_platform}, [sign = sign](Machine& machine) {
-      machine.platform.inertia += sign * momentsOf(machine.platform.mass, machine.platform.center_of_mass);
+      machine.platform.inertia += sign * pointInertia(machine.platform.mass, machine.platform.center_of_mass);
     });
   for (const auto& [words, sign] : {std::pair("added to", 1), {"taken off", -1}})
     out.addMachine(
@@ -202,8 +197,8 @@ void addPlatform(TriedCauses& out) {
       [](Machine& machine, double x) {  // in units of the platform's mass
         Platform& one = machine.platform;
         const Vector3d before = one.center_of_mass, after = before / (1 + x), to_load = after, to_old = before - after;
-        one.inertia += momentsOf(one.mass, to_old);
-        one.inertia += momentsOf(x * one.mass, to_load);
+        one.inertia += pointInertia(one.mass, to_old);
+        one.inertia += pointInertia(x * one.mass, to_load);
         one.mass *= 1 + x;
         one.center_of_mass = after;
       },

@@ -21,6 +21,8 @@ constexpr Group groups[] = {{"the platform", "platform", false, false, true},
                             {"the proximal links", "proximal", true, false, false},
                             {"the distal links", "distal", false, true, false},
                             {"every body", "all", true, true, true}};
+constexpr const Group *platform_group = &groups[0], *links_group = &groups[1], *proximal_group = &groups[2],
+                      *distal_group = &groups[3];
 
 /// Σ Tᵀ w over the group.
 Vector6d effortsOf(const MachineTerms& machine, const Group& group, const Wrench& wrench) {
@@ -86,10 +88,7 @@ Wrench withTensor(Matrix3d (*tensor)(const BodyTerms&), const Wrench& part = ine
   };
 }
 
-/// m (r² 1 − r rᵀ).
-Matrix3d steiner(const BodyTerms& body) {
-  return body.mass * (body.from.squaredNorm() * Matrix3d::Identity() - body.from * body.from.transpose());
-}
+Matrix3d steiner(const BodyTerms& body) { return pointInertia(body.mass, body.from); }
 
 /// Adds what `wrench` makes of a group's bodies, `times`.
 void addOf(const Group& group, const std::string& text, NamedCause named, const Wrench& wrench, TriedCauses& out,
@@ -101,10 +100,10 @@ void addOf(const Group& group, const std::string& text, NamedCause named, const 
 }
 
 /// Adds a part of the wrenches of each group, omitted, doubled or with the wrong sign.
-void addPart(const std::string& what, const char* term, const Wrench& part, TriedCauses& out, const char* only = "",
-             bool may_be_other = true) {
+void addPart(const std::string& what, const char* term, const Wrench& part, TriedCauses& out,
+             const Group* only = nullptr, bool may_be_other = true) {
   for (const Group& group : groups) {
-    if (*only != 0 && group.body != std::string(only)) continue;
+    if (only != nullptr && only != &group) continue;
     const std::string which = what + " of " + group.words;
     addOf(group, which + " left out", {CauseKind::missing_term, term}, part, out, -1);
     if (!may_be_other) continue;
@@ -215,25 +214,26 @@ void addTensors(TriedCauses& out) {
 }  // namespace
 
 void addTermCauses(TriedCauses& out) {
-  for (const char* body : {"platform", "legs", "proximal", "distal"}) addPart("gravity", "gravity", gravity, out, body);
+  for (const Group* of : {platform_group, links_group, proximal_group, distal_group})
+    addPart("gravity", "gravity", gravity, out, of);
   addPart("the gyroscopic moment", "gyroscopic", gyroscopic, out);
   addPart("the centripetal acceleration", "centripetal", centripetal, out);
-  addPart("the tangential acceleration", "angular_acceleration", tangential, out, "platform", false);
-  addPart("the Coriolis acceleration", "coriolis", coriolis, out, "distal");
-  addPart("half of the Coriolis acceleration", "coriolis", halfCoriolis, out, "distal", false);
+  addPart("the tangential acceleration", "angular_acceleration", tangential, out, platform_group, false);
+  addPart("the Coriolis acceleration", "coriolis", coriolis, out, distal_group);
+  addPart("half of the Coriolis acceleration", "coriolis", halfCoriolis, out, distal_group, false);
   addPart("the moment of inertia", "inertia", turningInertia, out);
   addPart("the moment of angular acceleration", "inertia", acceleratedInertia, out);
   addPart("the force of inertia", "inertia", movingInertia, out);
   addPart("inertia", "inertia", inertia, out);
   // The wrong sign would be that of every effort.
-  addPart("inertia and gravity", "inertia", everything, out, "", false);
-  addPart("the moment about P of gravity", "gravity", ofItsArm(gravity), out, "platform", false);
-  addPart("the moment about P of the force of inertia", "inertia", ofItsArm(movingInertia), out, "platform", false);
-  for (const char* body : {"legs", "proximal", "distal"}) {
-    addPart("what velocities make of the accelerations", "coriolis", bias, out, body);
-    addPart("what velocities make of the angular accelerations", "coriolis", turningBias, out, body);
-    addPart("what velocities make of the mass centres' accelerations", "coriolis", movingBias, out, body);
-    addPart("every term in velocities but friction", "coriolis", velocityTerms, out, body);
+  addPart("inertia and gravity", "inertia", everything, out, nullptr, false);
+  addPart("the moment about P of gravity", "gravity", ofItsArm(gravity), out, platform_group, false);
+  addPart("the moment about P of the force of inertia", "inertia", ofItsArm(movingInertia), out, platform_group, false);
+  for (const Group* of : {links_group, proximal_group, distal_group}) {
+    addPart("what velocities make of the accelerations", "coriolis", bias, out, of);
+    addPart("what velocities make of the angular accelerations", "coriolis", turningBias, out, of);
+    addPart("what velocities make of the mass centres' accelerations", "coriolis", movingBias, out, of);
+    addPart("every term in velocities but friction", "coriolis", velocityTerms, out, of);
   }
   for (const Group& group : groups)
     if (!group.platform) addSpin(group, out);

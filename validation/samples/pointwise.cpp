@@ -64,12 +64,11 @@ void compareJoints(const JointMotion& answer, PointwiseSample& sample) {
 
 void compareBodies(const BodyMotions<double>& answer, const BodyMotions<double>& simbody, PointwiseSample& sample) {
   const double length = sample.conditioning.length;
-  const auto norm = [length](const Vector6d& v) { return v.tail<3>().norm() + length * v.head<3>().norm(); };
   for (int b = 0; b < body_count; ++b) {
     const auto i = static_cast<std::size_t>(b);
     raise(sample.position, (answer[i].c - simbody[i].c).norm() + length * (answer[i].R - simbody[i].R).norm(), b);
-    raise(sample.twist, norm(answer[i].twist - simbody[i].twist), b);
-    raise(sample.twist_rate, norm(answer[i].twist_rate - simbody[i].twist_rate), b);
+    raise(sample.twist, twistSize(answer[i].twist - simbody[i].twist, length), b);
+    raise(sample.twist_rate, twistSize(answer[i].twist_rate - simbody[i].twist_rate, length), b);
   }
 }
 
@@ -92,14 +91,13 @@ void setLimits(PointwiseSample& sample) {
 
 /// t_P = T φ̇ (24) and ṫ_P = T φ̈ + Ṫ φ̇ (25) with Simbody's joint motion.
 void compareJacobians(const KinematicAnswer& answer, const Motors& motors, PointwiseSample& sample) {
-  const Conditioning& c = sample.conditioning;
   const Vector6d rate = sample.joints.q_dot.driven(motors), acceleration = sample.joints.q_ddot.driven(motors);
   Vector6d twist, twist_rate;
   twist << sample.motion.omega, sample.motion.p_dot;
   twist_rate << sample.motion.omega_dot, sample.motion.p_ddot;
-  const auto norm = [&c](const Vector6d& v) { return v.tail<3>().norm() + c.length * v.head<3>().norm(); };
-  raise(sample.jacobian, norm(answer.T * rate - twist), -1);
-  raise(sample.jacobian_rate, norm(answer.T * acceleration + answer.T_rate * rate - twist_rate), -1);
+  const double length = sample.conditioning.length;
+  raise(sample.jacobian, twistSize(answer.T * rate - twist, length), -1);
+  raise(sample.jacobian_rate, twistSize(answer.T * acceleration + answer.T_rate * rate - twist_rate, length), -1);
 }
 
 using ShapingAt = std::function<Matrix6d(double t)>;
@@ -162,8 +160,7 @@ void runDynamics(const SimbodyAnswer& simbody, SimbodyLoop& loop, PointwiseSampl
   Vector6d commanded;
   commanded << sample.motion.omega_dot, sample.motion.p_ddot;
   sample.acceleration_error = simbody.twistRateUnder(sample.torques, loop, sample.motion) - commanded;
-  const Vector6d& error = sample.acceleration_error;
-  raise(sample.acceleration, error.tail<3>().norm() + sample.conditioning.length * error.head<3>().norm(), -1);
+  raise(sample.acceleration, twistSize(sample.acceleration_error, sample.conditioning.length), -1);
 }
 
 PointwiseSample runInstant(const Scenario& scenario, const Subject& subject, const Subject& right,
@@ -256,6 +253,19 @@ std::vector<PointwiseSample> runJointsAndTorques(const Scenario& scenario, const
   return samples;
 }
 
+std::size_t indexFrom(const std::vector<PointwiseSample>& samples, double t) {
+  const auto at = std::lower_bound(samples.begin(), samples.end(), t,
+                                   [](const PointwiseSample& each, double x) { return each.motion.t < x; });
+  return std::min(static_cast<std::size_t>(at - samples.begin()), samples.size() - 1);
+}
+
+double largestTorque(const std::vector<PointwiseSample>& samples) {
+  double largest = 0;
+  for (const PointwiseSample& sample : samples)
+    largest = std::max(largest, sample.torques_simbody.cwiseAbs().maxCoeff());
+  return largest;
+}
+
 std::vector<double> instantsOf(const std::vector<PointwiseSample>& samples) {
   std::vector<double> out;
   out.reserve(samples.size());
@@ -264,10 +274,7 @@ std::vector<double> instantsOf(const std::vector<PointwiseSample>& samples) {
 }
 
 std::string causeOfRounding(const std::vector<PointwiseSample>& samples, double t, Rounded quantity) {
-  if (samples.empty()) return "";
-  const auto at = std::lower_bound(samples.begin(), samples.end(), t,
-                                   [](const PointwiseSample& each, double x) { return each.motion.t < x; });
-  return causeOfRounding((at == samples.end() ? samples.back() : *at).conditioning, quantity);
+  return samples.empty() ? "" : causeOfRounding(samples[indexFrom(samples, t)].conditioning, quantity);
 }
 
 }  // namespace ursula

@@ -66,6 +66,12 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
 std::vector<PointwiseSample> runJointsAndTorques(const Scenario& scenario, const Subject& subject,
                                                  const std::vector<double>& instants);
 
+/// The index of the first sample at t or after it, otherwise of the last.
+std::size_t indexFrom(const std::vector<PointwiseSample>& samples, double t);
+
+/// The largest of Simbody's torques, N·m; 0 without samples.
+double largestTorque(const std::vector<PointwiseSample>& samples);
+
 std::vector<double> instantsOf(const std::vector<PointwiseSample>& samples);
 
 /// causeOfRounding at the sample at t, or at the first after it; "" if there is none.
