@@ -27,6 +27,16 @@ inline void members(Archive& archive, TimeSeries& series) {
   archive(names, columns);
 }
 
+inline void members(Archive& archive, CurveLine& line) {
+  auto& [label, unit, values, role] = line;
+  archive(label, unit, values, role);
+}
+
+inline void members(Archive& archive, Curve& curve) {
+  auto& [about, title, x_label, over_time, x, lines] = curve;
+  archive(about, title, x_label, over_time, x, lines);
+}
+
 inline void members(Archive& archive, Event& event) {
   auto& [t, what] = event;
   archive(t, what);

@@ -32,17 +32,9 @@ struct Span {
   bool isWide() const { return positive && most > least && std::log10(most / least) > decades_for_log; }
 };
 
-/// "rounding (m)" → "rounding", "m".
-Line lineOf(const std::string& column, int color) {
-  const std::size_t open = column.rfind(" (");
-  const bool has_unit = open != std::string::npos && column.back() == ')';
-  Line line;
-  line.label = has_unit ? column.substr(0, open) : column;
-  line.unit = has_unit ? column.substr(open + 2, column.size() - open - 3) : "";
-  line.color = color;
-  const bool is_limit = line.label.find("limit") != std::string::npos;
-  line.stroke = is_limit ? Stroke::limit : line.label == "observed" ? Stroke::ghost : Stroke::line;
-  return line;
+Line lineOf(const CurveLine& from, int color, const std::vector<std::size_t>& rows) {
+  constexpr Stroke strokes[] = {Stroke::line, Stroke::ghost, Stroke::limit};
+  return {from.label, from.unit, color, strokes[static_cast<std::size_t>(from.role)], picked(from.values, rows)};
 }
 
 /// The unit that all lines share, or "" if they differ.
@@ -52,28 +44,25 @@ std::string commonUnit(const Plot& plot) {
   return plot.lines.front().unit;
 }
 
-Plot curvePlot(const std::string& title, const TimeSeries& curve) {
+Plot curvePlot(const Curve& curve) {
+  constexpr PlotGroup groups[] = {PlotGroup::sources, PlotGroup::errors, PlotGroup::numerics};
+  const std::vector<std::size_t> rows = ascending(curve.x);
   Plot plot;
-  plot.title = title;
-  plot.group = title == sources_curve                     ? PlotGroup::sources
-               : title.find("limit") != std::string::npos ? PlotGroup::errors
-                                                          : PlotGroup::numerics;
-  const std::vector<std::size_t> rows = ascending(curve.columns.front());
-  plot.x_label = curve.names.front();
-  plot.x = picked(curve.columns.front(), rows);
+  plot.title = curve.title;
+  plot.group = groups[static_cast<std::size_t>(curve.about)];
+  plot.over_time = curve.over_time;
+  plot.x_label = curve.over_time ? "t (s)" : curve.x_label;
+  plot.x = picked(curve.x, rows);
   plot.rows = rows.size();
   Span x, y;
   x.include(plot.x);
-  for (std::size_t i = 1; i < curve.columns.size(); ++i) {
-    plot.lines.push_back(lineOf(curve.names[i], static_cast<int>(i) - 1));
-    plot.lines.back().values = picked(curve.columns[i], rows);
+  for (const CurveLine& line : curve.lines) {
+    plot.lines.push_back(lineOf(line, static_cast<int>(plot.lines.size()), rows));
     y.include(plot.lines.back().values);
   }
   const std::string unit = commonUnit(plot);
-  plot.y_label = plot.lines.size() == 1 ? curve.names[1] : unit.empty() ? "" : (unit == "m" ? "error (m)" : unit);
+  plot.y_label = plot.lines.size() == 1 ? curve.lines[0].label : unit.empty() ? "" : (unit == "m" ? "error (m)" : unit);
   // Time has a linear axis; any other x goes with a logarithmic y, so a power law is a straight line.
-  plot.over_time = plot.x_label == "t_s";
-  if (plot.over_time) plot.x_label = "t (s)";
   plot.log_y = y.isWide() || (!plot.over_time && x.isWide() && y.positive);
   plot.log_x = !plot.over_time && x.positive && plot.log_y;
   return plot;
@@ -109,9 +98,8 @@ Motors motorsOf(const ValidationResult& result) {
 
 std::vector<Plot> plots(const ValidationResult& result) {
   std::vector<Plot> plots;
-  for (const auto& [title, curve] : result.curves) {
-    if (curve.columns.size() > 1 && curve.rows() > 0) plots.push_back(curvePlot(title, curve));
-  }
+  for (const Curve& curve : result.curves)
+    if (!curve.lines.empty() && !curve.x.empty()) plots.push_back(curvePlot(curve));
   addSeriesPlots(result.timeseries, motorsOf(result), result.deviation ? result.deviation->allowed : 0, plots);
   std::stable_sort(plots.begin(), plots.end(), [](const Plot& a, const Plot& b) { return a.group < b.group; });
   for (Plot& plot : plots) sayEfforts(effortNoun(result), plot);

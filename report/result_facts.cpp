@@ -115,10 +115,10 @@ std::string failed(const ValidationResult& result, const ResultFacts& facts) {
 
 /// The limit at the replay's end; NaN if unknown.
 double limitAtEnd(const ValidationResult& result, const Check& replay) {
-  for (const auto& [title, curve] : result.curves)
-    if (title == sources_curve)
-      if (const std::vector<double>* limit = curve.find("limit (m)"); limit != nullptr && !limit->empty())
-        return limit->back();
+  for (const Curve& curve : result.curves)
+    for (const CurveLine& line : curve.lines)
+      if (curve.about == Curve::About::sources && line.role == CurveLine::Role::limit && !line.values.empty())
+        return line.values.back();
   return replay.value == replay.largest.value ? replay.limit : none;
 }
 

@@ -9,7 +9,6 @@
 namespace ursula::report {
 
 /// The curve with the sources of the replay's error.
-constexpr const char* sources_curve = "Sources of the replay's error";
 
 /// The facts of a result, from which texts are made.
 struct ResultFacts {

@@ -39,8 +39,7 @@ void addFacts(const std::optional<ErrorBudget>& budget, Evidence& evidence, Vali
   if (!evidence.reactions().empty())
     addReactionColumns(*evidence.scenario->manipulator, evidence.reactions(), from, result.timeseries);
   addCurves(evidence.samples, evidence.windows, from, result);
-  if (!evidence.ladder.rungs.empty())
-    result.curves.emplace_back("Work and precision", workPrecision(evidence.ladder, from));
+  if (!evidence.ladder.rungs.empty()) result.curves.push_back(workPrecision(evidence.ladder, from.units));
 }
 
 /// Reports progress; `done` is the completed part of all work.

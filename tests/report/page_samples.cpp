@@ -14,22 +14,17 @@ namespace {
 
 constexpr std::size_t long_rows = 60001;
 
-TimeSeries stretched(const TimeSeries& series) {
-  TimeSeries out;
-  for (std::size_t k = 0; k < series.names.size(); ++k) {
-    const std::vector<double>& from = series.columns[k];
-    std::vector<double> values(long_rows);
-    for (std::size_t i = 0; i < long_rows; ++i) {
-      const double place = static_cast<double>(i) / (long_rows - 1) * static_cast<double>(from.size() - 1);
-      const std::size_t before = std::min(static_cast<std::size_t>(place), from.size() - 2);
-      const double share = place - static_cast<double>(before);
-      values[i] = series.names[k] == "t_s" ? 1e-3 * static_cast<double>(i)
-                                           : ((1 - share) * from[before] + share * from[before + 1]) *
-                                                 (1 + 1e-3 * std::sin(0.7 * static_cast<double>(i)));
-    }
-    out.add(series.names[k], values);
+std::vector<double> stretched(const std::vector<double>& from, bool is_time) {
+  std::vector<double> values(long_rows);
+  for (std::size_t i = 0; i < long_rows; ++i) {
+    const double place = static_cast<double>(i) / (long_rows - 1) * static_cast<double>(from.size() - 1);
+    const std::size_t before = std::min(static_cast<std::size_t>(place), from.size() - 2);
+    const double share = place - static_cast<double>(before);
+    values[i] = is_time ? 1e-3 * static_cast<double>(i)
+                        : ((1 - share) * from[before] + share * from[before + 1]) *
+                              (1 + 1e-3 * std::sin(0.7 * static_cast<double>(i)));
   }
-  return out;
+  return values;
 }
 
 }  // namespace
@@ -37,9 +32,14 @@ TimeSeries stretched(const TimeSeries& series) {
 ValidationResult longSample() {
   ValidationResult result = passedSample();
   result.scenario = "long";
-  result.timeseries = stretched(result.timeseries);
-  for (auto& [title, curve] : result.curves)
-    if (curve.names.front() == "t_s") curve = stretched(curve);
+  TimeSeries& series = result.timeseries;
+  for (std::size_t k = 0; k < series.names.size(); ++k)
+    series.columns[k] = stretched(series.columns[k], series.names[k] == "t_s");
+  for (Curve& curve : result.curves) {
+    if (!curve.over_time) continue;
+    curve.x = stretched(curve.x, true);
+    for (CurveLine& line : curve.lines) line.values = stretched(line.values, false);
+  }
   result.asked = std::make_shared<const Scenario>(readScenario(std::string(URSULA_SCENARIOS) + "/helix-60s.toml"));
   for (Event& event : result.events) event.t *= 20;
   return result;

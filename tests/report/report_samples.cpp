@@ -63,34 +63,38 @@ void addMotion(TimeSeries& series) {
   series.add("reaction_1_x_N", sampled([](double t) { return t; }));
 }
 
-TimeSeries workAgainstPrecision() {
-  TimeSeries curve;
-  curve.add("evaluations", {900, 1400, 2300, 4100, 7800, 15600});
-  curve.add("rkf78_error_m", {2e-4, 5e-6, 9e-8, 6e-10, 3e-12, 4e-13});
-  curve.add("rk_merson_error_m", {4e-3, 9e-4, 1e-4, 9e-6, 7e-7, 4e-8});
-  return curve;
+Curve workAgainstPrecision() {
+  return {Curve::About::numerics,
+          "Work against precision",
+          "evaluations",
+          false,
+          {900, 1400, 2300, 4100, 7800, 15600},
+          {{"rkf78_error_m", "", {2e-4, 5e-6, 9e-8, 6e-10, 3e-12, 4e-13}},
+           {"rk_merson_error_m", "", {4e-3, 9e-4, 1e-4, 9e-6, 7e-7, 4e-8}}}};
 }
 
-TimeSeries sources() {
-  TimeSeries curve;
-  curve.add("t_s", sampled([](double t) { return t; }));
-  const auto add = [&curve](const char* name, double scale) {
-    curve.add(name, sampled([scale](double t) { return scale * std::exp(4.6 * t); }));
+Curve overTime(Curve::About about, const char* title) {
+  return {about, title, "t", true, sampled([](double t) { return t; })};
+}
+
+Curve sources() {
+  Curve curve = overTime(Curve::About::sources, "Sources of the replay's error");
+  const auto add = [&curve](const char* label, double scale, CurveLine::Role role = CurveLine::Role::value) {
+    curve.lines.push_back({label, "m", sampled([scale](double t) { return scale * std::exp(4.6 * t); }), role});
   };
-  add("observed (m)", 3e-15);
-  add("rounding (m)", 1e-15);
-  add("integration (m)", 2.4e-15);
-  add("loop closure (m)", 3e-16);
-  add("torques (m)", 5e-17);
-  add("unexplained (m)", 2e-16);
-  add("limit (m)", 4e-15);
+  add("observed", 3e-15, CurveLine::Role::observed);
+  add("rounding", 1e-15);
+  add("integration", 2.4e-15);
+  add("loop closure", 3e-16);
+  add("torques", 5e-17);
+  add("unexplained", 2e-16);
+  add("limit", 4e-15, CurveLine::Role::limit);
   return curve;
 }
 
-TimeSeries amplification() {
-  TimeSeries curve;
-  curve.add("t_s", sampled([](double t) { return t; }));
-  curve.add("amplification", sampled([](double t) { return std::exp(4.6 * t); }));
+Curve amplification() {
+  Curve curve = overTime(Curve::About::numerics, "Amplification");
+  curve.lines = {{"amplification", "", sampled([](double t) { return std::exp(4.6 * t); })}};
   return curve;
 }
 
@@ -136,9 +140,7 @@ ValidationResult passedSample() {
   addTorques(result.timeseries);
   addMotion(result.timeseries);
   addExpected(result.timeseries, 1e-15);
-  result.curves = {{"Sources of the replay's error", sources()},
-                   {"Work against precision", workAgainstPrecision()},
-                   {"Amplification", amplification()}};
+  result.curves = {sources(), workAgainstPrecision(), amplification()};
   result.events = {{1.88, "nearest to a singular pose"}};
   result.asked = shipped("paper-helix");
   return result;
@@ -210,10 +212,7 @@ ValidationResult hostileSample() {
   result.timeseries.add("t_s", {0, 1, 2});
   result.timeseries.add("tau_1_Nm", {nan, 1, -infinite});
   result.timeseries.add("error_p_m", {0, 0, 0});
-  TimeSeries curve;
-  curve.add(text, {3, nan, 1});
-  curve.add(text + " y", {1, 2, infinite});
-  result.curves = {{text, curve}};
+  result.curves = {{Curve::About::numerics, text, text, false, {3, nan, 1}, {{text + " y", "", {1, 2, infinite}}}}};
   return result;
 }
 

@@ -160,9 +160,7 @@ TEST(Plots, chooseLogarithmicAxesByTheData) {
   EXPECT_TRUE(plot("Work against precision").log_x && plot("Work against precision").log_y);  // logarithmic in both
   EXPECT_TRUE(!plot("Amplification").log_x && plot("Amplification").log_y);                   // over time
   ValidationResult narrow;
-  narrow.curves.emplace_back();
-  narrow.curves.back().second.add("n", {1, 2});
-  narrow.curves.back().second.add("error", {5, 6});
+  narrow.curves = {{Curve::About::numerics, "", "n", false, {1, 2}, {{"error", "", {5, 6}}}}};
   EXPECT_FALSE(report::plots(narrow)[0].log_x || report::plots(narrow)[0].log_y);
 }
 

@@ -23,7 +23,7 @@ void addCurves(const std::vector<PointwiseSample>& samples, const std::vector<Wi
                const FrameChange& from, ValidationResult& result);
 
 /// Error over derivative evaluations, for the report.
-TimeSeries workPrecision(const Ladder& ladder, const FrameChange& from = {});
+Curve workPrecision(const Ladder& ladder, const Units& units = {});
 
 /// Adds the largest torque and acceleration with their errors, condition numbers, and the cost of the replay.
 void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,

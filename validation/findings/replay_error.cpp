@@ -26,12 +26,18 @@ ReplayError replayErrorOf(const ErrorBudget& budget, const Units& units) {
   return out;
 }
 
-TimeSeries curveOf(const ErrorBudget& budget, const Units& units, ErrorSource rest) {
-  TimeSeries out{{"t_s", "observed (m)", "rounding (m)", "integration (m)", "loop closure (m)", "torques (m)",
-                  std::string(name(rest)) + " (m)", "limit (m)"},
-                 budget.along};
-  for (std::vector<double>& column : out.columns)
-    for (double& value : column) value *= &column == &out.columns.front() ? units.time : units.length;
+Curve curveOf(const ErrorBudget& budget, const Units& units, ErrorSource rest) {
+  const auto inSi = [](std::vector<double> values, double unit) {
+    for (double& value : values) value *= unit;
+    return values;
+  };
+  Curve out = {Curve::About::sources, "Sources of the replay's error", "t", true,
+               inSi(budget.along.front(), units.time)};
+  const char* const labels[] = {"observed", "rounding", "integration", "loop closure", "torques", name(rest), "limit"};
+  for (std::size_t k = 0; k < std::size(labels); ++k)
+    out.lines.push_back({labels[k], "m", inSi(budget.along[k + 1], units.length)});
+  out.lines.front().role = CurveLine::Role::observed;
+  out.lines.back().role = CurveLine::Role::limit;
   return out;
 }
 
@@ -70,7 +76,7 @@ void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units&
   found.dominant = dominant == ErrorSource::unexplained ? rest : dominant;
   result.findings.push_back({"dominant error", name(found.dominant)});
   if (found.measured) {
-    result.curves.emplace_back("Sources of the replay's error", curveOf(budget, units, rest));
+    result.curves.push_back(curveOf(budget, units, rest));
     addSources(found, rest, result);
   }
   result.replay_error = std::move(found);

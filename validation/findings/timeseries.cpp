@@ -55,7 +55,7 @@ bool reachesEnd(const WindowedReplay& window) {
   return window.window.end() - window.replay.steps.back().t <= 1e-12 * window.window.end();
 }
 
-TimeSeries replayAndLimit(const std::vector<WindowedReplay>& windows, double position_scale, const Units& units) {
+Curve replayAndLimit(const std::vector<WindowedReplay>& windows, double position_scale, const Units& units) {
   std::vector<double> t, error, limit;
   for (const WindowedReplay& window : windows)
     for (const ReplayStep& step : window.replay.steps) {
@@ -67,30 +67,47 @@ TimeSeries replayAndLimit(const std::vector<WindowedReplay>& windows, double pos
       error.push_back(std::nan(""));
       limit.push_back(std::nan(""));
     }
-  return {{"t_s", "position error (m)", "derived limit (m)"}, {t, error, limit}};
+  return {Curve::About::limit,
+          "Replay against its derived limit",
+          "t",
+          true,
+          t,
+          {{"position error", "m", error}, {"derived limit", "m", limit, CurveLine::Role::limit}}};
 }
 
-TimeSeries growth(const std::vector<WindowedReplay>& windows, const Units& units) {
+Curve growth(const std::vector<WindowedReplay>& windows, const Units& units) {
   std::vector<double> t, from_state, from_velocity;
   for (const WindowedReplay& window : windows) {
     for (const double each : window.window.t) t.push_back(each * units.time);
     from_state.insert(from_state.end(), window.window.from_start.begin(), window.window.from_start.end());
     for (const double each : window.window.growth) from_velocity.push_back(each * units.time);
   }
-  return {{"t_s", "of the state (1)", "of the velocity (s)"}, {t, from_state, from_velocity}};
+  return {Curve::About::numerics,
+          "Growth of a deviation at the start of its window",
+          "t",
+          true,
+          t,
+          {{"of the state", "1", from_state}, {"of the velocity", "s", from_velocity}}};
 }
 
-TimeSeries distances(const std::vector<PointwiseSample>& samples, const FrameChange& from) {
+template <class Rows, class F>
+std::vector<double> valuesOf(const Rows& rows, F&& value) {
+  std::vector<double> out;
+  for (const auto& row : rows) out.push_back(value(row));
+  return out;
+}
+
+Curve distances(const std::vector<PointwiseSample>& samples, const Units& units) {
   using Sample = PointwiseSample;
-  TimeSeries out;
-  Columns columns(out, &from);
-  columns.add("t", "s", samples, [](const Sample& sample) { return sample.motion.t; });
-  columns.add("1/κ(B): 0 in a singular pose", "", samples, [](const Sample& s) { return 1 / s.conditioning.kappa_B; });
+  Curve out = {Curve::About::numerics, "Distance to singular poses and to the workspace's edge", "t", true,
+               valuesOf(samples, [&](const Sample& sample) { return sample.motion.t * units.time; })};
+  out.lines.push_back({"1/κ(B): 0 in a singular pose", "",
+                       valuesOf(samples, [](const Sample& sample) { return 1 / sample.conditioning.kappa_B; })});
   // Telescopic legs have no bend, so their sine is always 1.
   const auto bends = [](const Sample& sample) { return sample.conditioning.smallest_sine < 1; };
   if (std::any_of(samples.begin(), samples.end(), bends))
-    columns.add("sine of the bend: 0 in a stretched or folded leg", "", samples,
-                [](const Sample& sample) { return sample.conditioning.smallest_sine; });
+    out.lines.push_back({"sine of the bend: 0 in a stretched or folded leg", "",
+                         valuesOf(samples, [](const Sample& sample) { return sample.conditioning.smallest_sine; })});
   return out;
 }
 
@@ -115,19 +132,20 @@ void addCurves(const std::vector<PointwiseSample>& samples, const std::vector<Wi
                const FrameChange& from, ValidationResult& result) {
   addEvents(samples, windows, from.units, result);
   if (!windows.empty()) {
-    result.curves.emplace_back("Replay against its derived limit",
-                               replayAndLimit(windows, positionScale(samples), from.units));
-    result.curves.emplace_back("Growth of a deviation at the start of its window", growth(windows, from.units));
+    result.curves.push_back(replayAndLimit(windows, positionScale(samples), from.units));
+    result.curves.push_back(growth(windows, from.units));
   }
-  result.curves.emplace_back("Distance to singular poses and to the workspace's edge", distances(samples, from));
+  result.curves.push_back(distances(samples, from.units));
 }
 
-TimeSeries workPrecision(const Ladder& ladder, const FrameChange& from) {
-  TimeSeries series;
-  Columns columns(series, &from);
-  columns.add("evaluations", "", ladder.rungs, [](const Rung& rung) { return static_cast<double>(rung.evaluations); });
-  columns.add("rkf78_error", "m", ladder.rungs, [](const Rung& rung) { return rung.distance; });
-  return series;
+Curve workPrecision(const Ladder& ladder, const Units& units) {
+  return {
+      Curve::About::numerics,
+      "Work and precision",
+      "evaluations",
+      false,
+      valuesOf(ladder.rungs, [](const Rung& rung) { return static_cast<double>(rung.evaluations); }),
+      {{"rkf78_error_m", "", valuesOf(ladder.rungs, [&](const Rung& rung) { return rung.distance * units.length; })}}};
 }
 
 namespace {

@@ -72,9 +72,9 @@ void sayEfforts(ValidationResult& result) {
   for (Finding& finding : result.findings) say(finding.name), say(finding.words);
   say(result.cause_words.off), say(result.cause_words.cause);
   for (Event& event : result.events) say(event.what);
-  for (auto& [title, curve] : result.curves) {
-    say(title);
-    for (std::string& name : curve.names) say(name);
+  for (Curve& curve : result.curves) {
+    say(curve.title);
+    for (CurveLine& line : curve.lines) say(line.label);
   }
 }
 

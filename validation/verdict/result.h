@@ -177,6 +177,30 @@ struct TimeSeries {
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
 };
 
+/// One line of a curve.
+struct CurveLine {
+  /// What was observed, apart from its parts, or a limit.
+  enum class Role { value, observed, limit };
+
+  std::string label;
+  std::string unit;  ///< empty for none
+  std::vector<double> values;
+  Role role = Role::value;
+};
+
+/// A chart of the report that is no part of the time series.
+struct Curve {
+  /// Sources of the replay's error, the replay's error against its limit, or how the numbers came about.
+  enum class About { sources, limit, numerics };
+
+  About about = About::numerics;
+  std::string title;
+  std::string x_label;
+  bool over_time = false;  ///< x is t in s
+  std::vector<double> x;
+  std::vector<CurveLine> lines = {};
+};
+
 /// An event at one instant, to be marked in plots over time.
 struct Event {
   double t = 0;  ///< s
@@ -270,8 +294,7 @@ struct ValidationResult {
   std::size_t replay_windows = 0;            ///< number of windows in the replay
   std::optional<EffortDeviation> deviation;  ///< nullopt if no effort was compared
   TimeSeries timeseries;
-  /// Further curves for the report, each with its own columns (work against precision, amplification, …).
-  std::vector<std::pair<std::string, TimeSeries>> curves;
+  std::vector<Curve> curves;
   std::vector<Event> events;              ///< restarts and stops of replays, poses nearest to a limit
   std::shared_ptr<const Scenario> asked;  ///< the validated scenario; null in a result that was read or constructed
 };
