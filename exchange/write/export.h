@@ -42,8 +42,6 @@ std::vector<TreeBody> treeBodiesOf(const ModelGraph& graph);
 /// the loops of the others. Throws UnreachablePose.
 MachineModel modelOf(const Scenario& scenario);
 
-enum class ModelFormat { sdf, mjcf, urdf };
-
 /// A model file, and notes on the parts of the scenario that it lacks.
 struct WrittenModel {
   std::string text;

@@ -108,10 +108,7 @@ RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::f
     const ValidationResult result = validate(scenario, options);
     verdicts[i] = result.verdict;
     checks[i] = result.checks;
-    if (result.verdict != Verdict::pass)
-      if (const Check* worst = worstCheck(result.checks))
-        why[i] = fmt::format("seed {}: {} {:.3g} of {:.3g} {}: {}", seed + i, worst->name, worst->value, worst->limit,
-                             worst->unit, worst->why);
+    if (result.verdict != Verdict::pass) why[i] = worstText(seed + i, result.checks);
     done(count);
   });
   RandomOutcomes out;
@@ -127,6 +124,13 @@ RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::f
     }
   }
   return out;
+}
+
+std::string worstText(std::uint64_t seed, const std::vector<Check>& checks) {
+  const Check* worst = worstCheck(checks);
+  return worst == nullptr ? ""
+                          : fmt::format("seed {}: {} {:.3g} of {:.3g} {}: {}", seed, worst->name, worst->value,
+                                        worst->limit, worst->unit, worst->why);
 }
 
 int weakDefects(const std::vector<DefectOutcome>& outcomes) {

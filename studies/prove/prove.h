@@ -69,6 +69,9 @@ std::vector<Sensitivity> proveSensitivities(const Scenario& scenario);
 RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::function<void(int)>& done,
                            RandomKind kind = RandomKind::URS);
 
+/// Names the worst check of the scenario from `seed`: "seed 3: torque.pointwise 2 of 1 N m: leg 2".
+std::string worstText(std::uint64_t seed, const std::vector<Check>& checks);
+
 /// Returns the number of effective defects that too few formulations caught.
 int weakDefects(const std::vector<DefectOutcome>& outcomes);
 

@@ -7,6 +7,7 @@
 
 #include "model/scenario.h"
 #include "nocsolver/noc/noc.h"
+#include "studies/audit/effect.h"
 #include "studies/audit/formula.h"
 
 namespace ursula::audit {
@@ -115,6 +116,20 @@ TEST(AuditFormulas, asPrintedAreTheSolversFormulaErrors) {
     EXPECT_GT(largestDifference(right, printed), 1e-6) << equation;
     EXPECT_LE(largestDifference(right, found->truth(reference)), rounding) << equation;
   }
+}
+
+/// The torque that is no number comes first, and right ones follow.
+TEST(AuditEffects, keepATorqueThatIsNoNumber) {
+  const Scenario scenario = paperHelix();
+  const Torques right = torquesWith(scenario, WithFormulaErrors(), false);
+  const auto errorWith = [&](double off) {
+    const auto torques = [&](const Motion<double>& m) {
+      return Vector6d(right(m) + (m.t == 0 ? off : 0) * Vector6d::Unit(4));
+    };
+    return effectOf(scenario, torques, 3, 1e-4).torque_error;
+  };
+  EXPECT_TRUE(std::isnan(errorWith(std::nan(""))));
+  EXPECT_NEAR(errorWith(2), 2, 1e-6);
 }
 
 TEST(AuditWitness, agreesWithTheSolver) {

@@ -271,6 +271,15 @@ TEST(ProveRandom, raisesNoAlarmForAnyNumberOfJobs) {
   EXPECT_EQ(two.largest_share, one.largest_share) << "to the last bit";
 }
 
+TEST(ProveRandom, namesTheWorstCheckAndNotTheFirst) {
+  const Check passed = judged("torque.twin", 0.9, 1, "N m", "", "leg 1");
+  const Check failed = judged("replay.position", 2, 1, "m", "", "late"),
+              worst = judged("torque.pointwise", 9, 3, "N m", "", "leg 2");
+  EXPECT_EQ(worstText(3, {passed, failed, worst}), "seed 3: torque.pointwise 9 of 3 N m: leg 2");
+  EXPECT_EQ(worstText(3, {passed, failed}), "seed 3: replay.position 2 of 1 m: late");
+  EXPECT_EQ(worstText(3, {}), "");
+}
+
 TEST(EngineOf, countsWhatAChecksVerdictRestsOn) {
   EXPECT_EQ(engineOf("torque.pointwise"), "Simbody");
   EXPECT_EQ(engineOf("replay.position"), "Simbody");

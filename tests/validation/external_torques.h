@@ -34,7 +34,7 @@ struct TorqueTable {
     return out;
   }
 
-  /// With 17 significant digits.
+  /// The file's text, with 17 significant digits.
   std::string text() const {
     std::vector<std::vector<double>> columns = {t};
     for (int i = 0; i < leg_count; ++i) {
@@ -44,7 +44,7 @@ struct TorqueTable {
     return csvText(names(), columns);
   }
 
-  /// With each torque in a format such as "{:.3g}".
+  /// The file that a writer makes who prints each torque by `format`, such as "{:.3g}".
   TorqueFile printed(const std::string& format) const {
     std::string out = fmt::format("{}\n", fmt::join(names(), ","));
     for (std::size_t k = 0; k < t.size(); ++k) {

@@ -8,6 +8,7 @@
 #include "tests/validation/checks.h"
 #include "tests/validation/external_torques.h"
 #include "tests/validation/scenario_files.h"
+#include "validation/checks/tolerance.h"
 #include "validation/validate.h"
 
 namespace ursula {
@@ -92,6 +93,27 @@ TEST(Tolerance, isPlainNumbersForMotorsOfBothSorts) {
 TEST(Tolerance, noNumberIsNeverWithin) {
   const ValidationResult result = judgedWith(std::nan(""), EffortTolerance{1, 1e9, true});
   EXPECT_EQ(result.verdict, Verdict::fail);
+}
+
+TEST(EffortDeviation, keepsWhatIsNoNumberInAnyOrder) {
+  const Scenario scenario = scenarioOf("paper-helix");
+  Evidence evidence;
+  evidence.given = evidence.scenario = &scenario;
+  evidence.samples.resize(1);
+  const auto with = [&evidence](double a, double b) {
+    std::vector<Check> checks = {judged("torque.pointwise", a, 1, "N m", "", ""),
+                                 judged("torque.twin", b, 1, "N m", "", "")};
+    for (Check& check : checks) check.missed = check.value;
+    return *effortDeviation(evidence, checks);
+  };
+  const double nan = std::nan("");
+  EXPECT_TRUE(std::isnan(with(nan, 2).largest) && std::isnan(with(2, nan).largest));
+  EXPECT_TRUE(std::isnan(with(nan, nan).seen));
+  EXPECT_EQ(with(nan, 2).seen, 2) << "one check would have failed";
+  EXPECT_EQ(with(2, nan).seen, 2);
+  EXPECT_EQ(with(3, 2).seen, 2);
+  EXPECT_EQ(with(2, 3).seen, 2);
+  EXPECT_EQ(with(2, 3).largest, 3);
 }
 
 TEST(Tolerance, aReplayThatAcceptanceNamesIsJudged) {
