@@ -36,8 +36,9 @@ def wrong_file(program, folder, kind, factor):
     return s, t, tau
 
 
-@pytest.mark.parametrize("kind", NOUNS)
-@pytest.mark.parametrize("factor, more", [(1.001, []), (1.001, ["--rtol", "0.01"]), (1, [])])
+@pytest.mark.parametrize("kind, factor, more", [
+    *((kind, *judged) for kind in ("UPS", "RUS") for judged in ((1.001, []), (1.001, ["--rtol", "0.01"]), (1, []))),
+    ("PUS", 1.001, [])])
 def test_a_file(kind, factor, more, program, tmp_path):
     wrong_file(program, tmp_path, kind, factor)
     run = program("validate", "my.toml", "--torques", "mine.csv", "--out", "out", *more)
