@@ -123,8 +123,8 @@ TEST(BoundsRun, saysThatTheWorkingFolderIsGone) {
 TEST(TimeLimitRun, endsWithTheAnswerOfASlowSolver) {
   const Program ursula;
   ursula.write("small.toml", good_scenario);
-  ursula.write("slow.sh", "while read -r line; do echo >> asked; sleep 15; echo 1,2,3,4,5,6; done\n");
-  const auto run = ursula("validate small.toml --solver 'sh slow.sh' --solver-timeout 60 --time-limit 15 --out out");
+  ursula.write("slow.sh", "while read -r line; do echo >> asked; sleep 5; echo 1,2,3,4,5,6; done\n");
+  const auto run = ursula("validate small.toml --solver 'sh slow.sh' --solver-timeout 60 --time-limit 5 --out out");
   EXPECT_EQ(run.exit_code, inconclusive) << run.out << run.err;
   const auto asked = TemporaryFolder::read(ursula.folder() / "asked").size();
   EXPECT_GT(asked, 0U);

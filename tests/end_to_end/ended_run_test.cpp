@@ -1,4 +1,4 @@
-// Runs that end before they are done, by a signal or for lack of descriptors.
+// Runs that end before they are done, lack descriptors or memory of them, or lose their streams.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -40,8 +40,8 @@ TEST(EndedRun, ofTooFewDescriptorsNamesAPath) {
   for (const char* name : {"one", "two"}) ursula.write(std::string(name) + ".toml", quickScenario(name));
   bool is_seen = false;
   for (const char* most : {"4", "5", "6"}) {  // the message has a path, whichever part meets the limit first
-    shell(ursula,
-          std::string("prlimit --nofile=") + most + " $URSULA validate one.toml two.toml --out out >said 2>err");
+    shell(ursula, std::string("prlimit --nofile=") + most +
+                      " $URSULA validate one.toml two.toml --time-limit 1e-9 --out out >said 2>err");
     const std::string said = TemporaryFolder::read(ursula.folder() / "err");
     is_seen = is_seen || said.find("Too many open files") != std::string::npos;
     EXPECT_THAT(said, Not(HasSubstr("error: :"))) << most;
@@ -49,6 +49,45 @@ TEST(EndedRun, ofTooFewDescriptorsNamesAPath) {
     EXPECT_EQ(ursula.files(), 4u) << most << ": something is left beside two scenarios, said and err";
   }
   EXPECT_TRUE(is_seen);
+}
+
+using testing::IsEmpty;
+
+TEST(LostTerminal, isNoReasonToStop) {
+  const Program ursula;
+  ursula.write("a.toml", quickScenario("one"));
+  ursula.write("b.toml", quickScenario("two"));
+  const std::string call = "\"$URSULA\" validate a.toml b.toml --time-limit 1e-9 --out out >said";
+  ASSERT_EQ(shell(ursula, call + " 2>/dev/null"), 3);
+  const auto expected = contents(ursula.folder() / "out");
+  for (const std::string& lost : {call + " 2>&-", call + " 2>/dev/full", call + " <&- 2>&-",
+                                  "{ " + call + " 2>&3; echo $? >code; } 3>&1 | true; exit $(cat code)"}) {
+    fs::remove_all(ursula.folder() / "out");
+    EXPECT_EQ(shell(ursula, lost), 3) << lost;
+    EXPECT_TRUE(contents(ursula.folder() / "out") == expected) << lost;
+    EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "said"), HasSubstr("0 passed, 0 failed, 2 inconclusive"))
+        << lost;
+  }
+}
+
+TEST(LostData, isExit2AndSaidOnWhatIsLeft) {
+  const Program ursula;
+  ursula.write("a.toml", quickScenario("one"));
+  ursula.write("b.toml", quickScenario("two"));
+  for (const char* call :
+       {"validate a.toml --time-limit 1e-9", "validate a.toml --time-limit 1e-9 --json",
+        "validate a.toml b.toml --time-limit 1e-9 --json", "inverse a.toml", "check a.toml", "explain", "--help"})
+    for (const char* lost : {">/dev/full", ">&-"}) {
+      const std::string line = std::string("\"$URSULA\" ") + call + " " + lost;
+      EXPECT_EQ(shell(ursula, line + " 2>err"), 2) << line;
+      EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "err"),
+                  HasSubstr("error: standard output could not be written"))
+          << line;
+    }
+  for (const char* both : {">/dev/full 2>&-", ">&- 2>&-"})
+    EXPECT_EQ(shell(ursula, std::string("\"$URSULA\" inverse a.toml ") + both), 2) << both;
+  EXPECT_EQ(shell(ursula, "\"$URSULA\" inverse a.toml >/dev/null 2>err"), 0) << "what is thrown away is not lost";
+  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "err"), IsEmpty());
 }
 
 }  // namespace

@@ -119,11 +119,11 @@ std::string withSamples(int count) {
 /// A sample takes some 5 kB. Twice as much would not fit, nor would an arena for each thread.
 TEST(LittleMemory, manySamplesFit) {
   const Program ursula;
-  ursula.write("a.toml", withSamples(10000));
-  ASSERT_EQ(shell(ursula, "ulimit -v 205000 && \"$URSULA\" validate a.toml --jobs 1 --out out 2>err"), passed)
+  ursula.write("a.toml", withSamples(4000));
+  ASSERT_EQ(shell(ursula, "ulimit -v 150000 && \"$URSULA\" validate a.toml --jobs 1 --out out 2>err"), passed)
       << complaint(ursula);
   const std::string series = TemporaryFolder::read(ursula.folder() / "out" / "timeseries.csv");
-  EXPECT_EQ(std::count(series.begin(), series.end(), '\n'), 10001);
+  EXPECT_EQ(std::count(series.begin(), series.end(), '\n'), 4001);
 }
 
 /// The message names what would need less memory, in the terms of the verb.

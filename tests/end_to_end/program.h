@@ -21,37 +21,24 @@ struct UrsulaRun {
   std::string out, err;
 };
 
-/// Calls the program in `folder` with `arguments` as a shell reads them. Standard input is empty unless they contain
-/// <file.
-inline UrsulaRun callProgram(const TemporaryFolder& folder, const std::string& arguments) {
-  const std::filesystem::path& path = folder.path();
-  const std::string command =
-      "cd '" + path.string() + "' && '" URSULA_PROGRAM "' </dev/null " + arguments + " >.out 2>.err";
-  const int status = std::system(command.c_str());
-  UrsulaRun run;
-  if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);
-  run.out = TemporaryFolder::read(path / ".out");
-  run.err = TemporaryFolder::read(path / ".err");
-  std::filesystem::remove(path / ".out");
-  std::filesystem::remove(path / ".err");
-  return run;
-}
-
-using ProgramRun = UrsulaRun;
-
-/// The same with each argument unchanged, because no shell reads them. None may contain a single quote.
-inline ProgramRun runProgram(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
-  std::string line;
-  for (const std::string& argument : arguments) line += " '" + argument + "'";
-  return callProgram(folder, line);
-}
-
 /// The program, called in a folder for the test.
 class Program {
  public:
   const std::filesystem::path& folder() const { return folder_.path(); }
 
-  UrsulaRun operator()(const std::string& arguments) const { return callProgram(folder_, arguments); }
+  /// Calls the program with `arguments` as a shell reads them. Standard input is empty unless they contain <file.
+  UrsulaRun operator()(const std::string& arguments) const {
+    const std::string command =
+        "cd '" + folder().string() + "' && '" URSULA_PROGRAM "' </dev/null " + arguments + " >.out 2>.err";
+    const int status = std::system(command.c_str());
+    UrsulaRun run;
+    if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);
+    run.out = TemporaryFolder::read(folder() / ".out");
+    run.err = TemporaryFolder::read(folder() / ".err");
+    std::filesystem::remove(folder() / ".out");
+    std::filesystem::remove(folder() / ".err");
+    return run;
+  }
 
   std::filesystem::path write(const std::string& name, const std::string& content) const {
     return folder_.write(name, content);

@@ -9,16 +9,9 @@
 #include <string>
 
 #include "tests/end_to_end/program.h"
-#include "tests/model/scenario_text.h"
+#include "tests/model/quick_scenario.h"
 
 namespace ursula {
-
-/// A short motion at few instants: some tenths of a second to validate.
-inline std::string quickScenario(const std::string& name, const std::string& mass = "500.0") {
-  std::string text = replaced(good_scenario, "name = \"small\"", "name = \"" + name + "\"");
-  text = replaced(replaced(text, "duration = 3.0", "duration = 0.3"), "mass = 500.0", "mass = " + mass);
-  return text + "\n[simulation]\nsamples = 3\n";
-}
 
 /// Every file under `folder` by its path, but for what has wall times.
 inline std::map<std::string, std::string> contents(const std::filesystem::path& folder) {

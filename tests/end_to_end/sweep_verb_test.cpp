@@ -39,19 +39,19 @@ TEST(SweepVerb, worksOnceAndThenSaysThatAllIsThere) {
 TEST(SweepVerb, showWritesAPointThatValidatesWithTheSameNumbers) {
   const Program ursula;
   ursula.write("s.toml", "scenario = \"" URSULA_SCENARIOS
-                         "/helix-0.3s.toml\"\ndesign = \"random\"\ncount = 3\nsamples = 7\n"
+                         "/helix-0.3s.toml\"\ndesign = \"random\"\ncount = 2\nsamples = 7\n"
                          "[[vary]]\nkey = \"platform.mass\"\nuniform = [400.0, 600.0]\n");
   const UrsulaRun sweep = ursula("sweep s.toml --db s.db --jobs 1");
   EXPECT_EQ(sweep.exit_code, 0) << sweep.out << sweep.err;
-  const UrsulaRun shown = ursula("sweep show s.toml 2");
+  const UrsulaRun shown = ursula("sweep show s.toml 1");
   EXPECT_EQ(shown.exit_code, 0);
   ursula.write("point.toml", shown.out);
   const UrsulaRun validated = ursula("validate point.toml --json --out point");
   ASSERT_EQ(validated.exit_code, 0) << validated.err;
   const auto summary = nlohmann::json::parse(validated.out);
-  EXPECT_EQ(summary.at("scenario"), "helix-0.3s-2");
-  EXPECT_EQ(shown.out, ursula("sweep show s.toml 2").out);
-  EXPECT_NE(shown.out, ursula("sweep show s.toml 1").out);
+  EXPECT_EQ(summary.at("scenario"), "helix-0.3s-1");
+  EXPECT_EQ(shown.out, ursula("sweep show s.toml 1").out);
+  EXPECT_NE(shown.out, ursula("sweep show s.toml 0").out);
 }
 
 TEST(SweepVerb, shardsMergeToTheWholeAndWhatIsMissingIsNamed) {
@@ -84,7 +84,7 @@ TEST(SweepVerb, mergeMakesFoldersWhereItWritesAlone) {
 /// The merge is stopped while its log exists, and so within it.
 TEST(SweepVerb, mergeThatASignalStopsLeavesOneFile) {
   const Program ursula;
-  ursula.write("s.toml", sweepOf("inverse", "design = \"random\"\ncount = 20000\nsamples = 5\n"));
+  ursula.write("s.toml", sweepOf("inverse", "design = \"random\"\ncount = 8000\nsamples = 5\n"));
   ASSERT_EQ(ursula("sweep s.toml --db s.db").exit_code, 0);
   const std::filesystem::path log = ursula.folder() / "all.db-wal";
   for (const int signal : {SIGINT, SIGTERM}) {

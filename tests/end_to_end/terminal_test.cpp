@@ -9,7 +9,7 @@
 
 #include "model/check_catalogue.h"
 #include "tests/end_to_end/program.h"
-#include "tests/model/scenario_text.h"
+#include "tests/model/quick_scenario.h"
 
 namespace ursula {
 namespace {
@@ -19,15 +19,13 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-std::string quick(const std::string& more = "") {
-  return replaced(good_scenario, "duration = 3.0", "duration = 0.3") + "\n[simulation]\nsamples = 3\n" + more;
-}
-
 TEST(Terminal, tableListsEveryCheckAndSaysWhatFailed) {
   const Program ursula;
-  ursula.write("a.toml", quick("[acceptance]\n\"torque.pointwise\" = 1e-30\n"));
+  ursula.write("a.toml", quickScenario() + "[acceptance]\n\"torque.pointwise\" = 1e-30\n");
   const UrsulaRun run = ursula("validate a.toml --out out");
   EXPECT_EQ(run.exit_code, 1) << run.err;
+  const std::string summary = TemporaryFolder::read(ursula.folder() / "out/summary.json");
+  EXPECT_EQ(nlohmann::json::parse(summary).at("verdict"), "fail");
   for (const CheckRow& check : checkCatalogue()) EXPECT_THAT(run.out, HasSubstr(check.name));
   EXPECT_THAT(run.out,
               AllOf(StartsWith("small: fail\n"), HasSubstr("\nMotors: the formulations agree on the efforts\n"),
@@ -38,7 +36,7 @@ TEST(Terminal, tableListsEveryCheckAndSaysWhatFailed) {
 
 TEST(Terminal, jsonIsTheSummaryAndNothingElse) {
   const Program ursula;
-  ursula.write("a.toml", quick());
+  ursula.write("a.toml", quickScenario());
   const UrsulaRun run = ursula("validate a.toml --json --out out");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(nlohmann::json::parse(run.out).at("verdict"), "pass");
@@ -48,19 +46,19 @@ TEST(Terminal, jsonIsTheSummaryAndNothingElse) {
 
 TEST(Terminal, quietIsTheVerdictsSentence) {
   const Program ursula;
-  ursula.write("a.toml", quick());
-  const UrsulaRun run = ursula("validate a.toml --quiet --out out");
+  ursula.write("a.toml", quickScenario());
+  const UrsulaRun run = ursula("validate a.toml --quiet");
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(run.out, StartsWith("small: pass — "));
   EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 1);
   EXPECT_EQ(run.err, "");
-  EXPECT_TRUE(std::filesystem::exists(ursula.folder() / "out/report.html"));
+  EXPECT_TRUE(std::filesystem::exists(ursula.folder() / "results/small/report.html")) << "by default";
 }
 
 TEST(Terminal, aScenarioMayComeFromStandardInput) {
   const Program ursula;
-  ursula.write("a.toml", quick());
-  ursula.write("bad.toml", replaced(quick(), "mass = 500.0", "weight = 500.0"));
+  ursula.write("a.toml", quickScenario());
+  ursula.write("bad.toml", replaced(quickScenario(), "mass = 500.0", "weight = 500.0"));
   EXPECT_EQ(ursula("inverse - --samples 3 <a.toml").out, ursula("inverse a.toml --samples 3").out);
   EXPECT_EQ(ursula("check - <a.toml").out, "<stdin>: the scenario and its motion are valid; 0 warnings\n");
   EXPECT_EQ(ursula("validate - --quiet <a.toml").exit_code, 0);
@@ -74,7 +72,7 @@ TEST(Terminal, aScenarioMayComeFromStandardInput) {
 
 TEST(Terminal, aFolderIsNotStandardOutput) {
   const Program ursula;
-  ursula.write("a.toml", quick());
+  ursula.write("a.toml", quickScenario());
   const UrsulaRun run = ursula("validate a.toml --out -");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("--out -: expected a folder"));

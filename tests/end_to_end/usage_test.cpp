@@ -97,20 +97,5 @@ TEST(Usage, numbersAreReadAsPeopleWriteThem) {
     EXPECT_EQ(ursula(call).exit_code, 0) << call << ursula(call).err;
 }
 
-/// Otherwise an input, or one of two results, would be lost.
-TEST(Usage, noFileIsNamedTwiceWhereOneIsWritten) {
-  const Program ursula;
-  const std::string shipped = Program::shipped("paper-helix.toml");
-  ursula.write("helix.toml", shipped);
-  expectRefused(ursula,
-                {{"inverse helix.toml --samples 3 --out helix.toml",
-                  "--out helix.toml: the program reads this file, expected another file"},
-                 {"inverse helix.toml --samples 3 --out ./a/../helix.toml", "the program reads this file"},
-                 {"check helix.toml --picture helix.toml", "--picture helix.toml: the program reads this file"},
-                 {"map helix.toml --picture same --out same", " also writes this file, expected another file"}});
-  EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "helix.toml"), shipped);
-  EXPECT_EQ(ursula("map helix.toml --picture /dev/null --out /dev/null --x=0,1,2 --y=0,1,2").exit_code, 0);
-}
-
 }  // namespace
 }  // namespace ursula

@@ -1,10 +1,12 @@
-// `ursula validate` from the scenario to the folder of results, by its exit codes.
+// `ursula validate` from the scenario, or a file of torques beside it, to the folder of results, by its exit codes.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 
 #include "base/csv.h"
 #include "tests/end_to_end/program.h"
@@ -14,11 +16,6 @@ namespace ursula {
 namespace {
 
 using testing::HasSubstr;
-
-/// The paper's example with fewer instants, for speed, and `more` at its end.
-std::string quickHelix(const std::string& more = "") {
-  return Program::shipped("paper-helix.toml") + "\n[simulation]\nsamples = 11\n" + more;
-}
 
 TEST(ValidateVerb, passesThePapersHelixAndLeavesAllResults) {
   const Program ursula;
@@ -58,30 +55,6 @@ TEST(ValidateVerb, passesThePapersHelixAndLeavesAllResults) {
   EXPECT_FALSE(std::regex_search(report, elsewhere)) << "it must work offline";
 }
 
-TEST(ValidateVerb, twoRunsWriteTheSameNumbersByDefaultToResultsByName) {
-  const Program ursula;
-  ursula.write("scenario.toml", quickHelix());
-  ASSERT_EQ(ursula("validate scenario.toml").exit_code, 0);
-  ASSERT_EQ(ursula("validate scenario.toml --out b").exit_code, 0);
-  const auto a = ursula.folder() / "results" / "paper-helix", b = ursula.folder() / "b";
-  for (const char* file : {"summary.json", "timeseries.csv"}) {
-    EXPECT_NE(TemporaryFolder::read(a / file), "") << file;
-    EXPECT_EQ(TemporaryFolder::read(a / file), TemporaryFolder::read(b / file)) << file;
-  }
-  for (const char* file : {"junit.xml", "report.html"}) EXPECT_TRUE(std::filesystem::is_regular_file(a / file)) << file;
-}
-
-TEST(ValidateVerb, exitsWithOneWhereACheckFailsAndStillReports) {
-  const Program ursula;
-  ursula.write("strict.toml", quickHelix("[acceptance]\n\"torque.pointwise\" = 1e-30\n"));
-  const UrsulaRun run = ursula("validate strict.toml --out dir");
-  EXPECT_EQ(run.exit_code, 1) << run.out << run.err;
-  EXPECT_THAT(run.out, HasSubstr("verdict: fail"));
-  EXPECT_THAT(run.out, HasSubstr("torque.pointwise"));
-  const auto summary = nlohmann::json::parse(TemporaryFolder::read(ursula.folder() / "dir" / "summary.json"));
-  EXPECT_EQ(summary.at("verdict"), "fail");
-}
-
 TEST(ValidateVerb, refusesWhatIsNoScenario) {
   const Program ursula;
   ursula.write("key.toml", replaced(good_scenario, "mass = 500.0", "mas = 500.0"));
@@ -94,6 +67,78 @@ TEST(ValidateVerb, refusesWhatIsNoScenario) {
                          {"validate no.toml --out dir", "no.toml:1:"},
                          {"validate none.toml --out dir", "none.toml"},
                          {"validate far.toml --out dir", "is out of reach at t = "}});
+}
+
+using testing::AllOf;
+using testing::Not;
+using testing::StartsWith;
+
+/// Makes a scenario and its results of `ursula inverse`.
+void prepare(const Program& ursula, const std::string& samples) {
+  ursula.write("small.toml", good_scenario);
+  ASSERT_EQ(ursula("inverse small.toml --samples " + samples + " --out tau.csv").exit_code, 0);
+}
+
+std::string replacedLine(const std::string& text, int line, const std::function<std::string(std::string)>& change) {
+  std::stringstream in(text);
+  std::string out, row;
+  for (int k = 1; std::getline(in, row); ++k) out += (k == line ? change(row) : row) + "\n";
+  return out;
+}
+
+TEST(TorquesRun, whatInverseWritesPasses) {
+  const Program ursula;
+  prepare(ursula, "101");
+  const auto run = ursula("validate small.toml --torques tau.csv --out out");
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  EXPECT_EQ(ursula("compare out out --tolerance 0").exit_code, 0) << "two folders of results";
+  EXPECT_EQ(ursula("compare out tau.csv").exit_code, 3) << "only a part of the channels is common, and all agree";
+  EXPECT_THAT(run.out,
+              AllOf(StartsWith("small: pass\n"), HasSubstr("torque.against_noc"), HasSubstr("replay.position")));
+  EXPECT_THAT(run.err,
+              AllOf(StartsWith("tau.csv: columns other than t_s"), HasSubstr("p_x_m"), Not(HasSubstr("tau_1_Nm, "))));
+  EXPECT_TRUE(std::filesystem::exists(ursula.folder() / "out/summary.json"));
+}
+
+TEST(TorquesRun, wrongOnesFailAndSayWhy) {
+  const Program ursula;
+  prepare(ursula, "101");
+  std::string text = TemporaryFolder::read(ursula.folder() / "tau.csv");
+  text = replaced(text, "tau_2_Nm", "tau_x_Nm");
+  text = replaced(text, "tau_5_Nm", "tau_2_Nm");
+  ursula.write("tau.csv", replaced(text, "tau_x_Nm", "tau_5_Nm"));
+  const auto run = ursula("validate small.toml --torques tau.csv --out out");
+  EXPECT_EQ(run.exit_code, 1) << run.out;
+  const std::string summary = TemporaryFolder::read(ursula.folder() / "out/summary.json");
+  EXPECT_THAT(summary, HasSubstr("\"likely cause\": \"legs 2 and 5 swapped, which explains"));
+}
+
+TEST(TorquesRun, fewOnesAreInconclusive) {
+  const Program ursula;
+  prepare(ursula, "5");
+  EXPECT_EQ(ursula("validate small.toml --torques tau.csv --out out").exit_code, 3);
+}
+
+TEST(TorquesRun, refusalsNameTheLineAndWriteNothing) {
+  const Program ursula;
+  prepare(ursula, "5");
+  const std::string text = TemporaryFolder::read(ursula.folder() / "tau.csv");
+  const auto refused = [&](const std::string& faulty) {
+    ursula.write("bad.csv", faulty);
+    const auto run = ursula("validate small.toml --torques bad.csv --out out");
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_EQ(run.out, "");
+    EXPECT_FALSE(std::filesystem::exists(ursula.folder() / "out"));
+    return run.err;
+  };
+  const auto repeated = [&](const std::string& row) { return row + "\n" + row; };
+  EXPECT_THAT(refused(replacedLine(text, 3, repeated)), HasSubstr("bad.csv:4: error: t_s = 0.75 repeats line 3"));
+  const auto without = [](const std::string& row) { return row.substr(row.find(',')); };
+  EXPECT_THAT(refused(replacedLine(text, 4, without)), HasSubstr("bad.csv:4: error: an empty cell in column 't_s'"));
+  const auto late = [&](const std::string& row) { return "3.5" + row.substr(row.find(',')); };
+  EXPECT_THAT(refused(replacedLine(text, 6, late)),
+              HasSubstr("bad.csv:6: error: t_s = 3.5 lies outside of the motion, expected 0 to 3 s"));
+  EXPECT_THAT(refused(replaced(text, "tau_4_Nm", "fourth")), HasSubstr("bad.csv:1: error: missing column 'tau_4_Nm'"));
 }
 
 }  // namespace

@@ -12,8 +12,6 @@ namespace {
 
 using testing::HasSubstr, testing::IsEmpty, testing::StartsWith;
 
-const std::string helix = "'" URSULA_SCENARIOS "/paper-helix.toml'";
-
 TEST(ExportVerb, WritesToStandardOutputOrToAFile) {
   const Program ursula;
   for (const std::string format : {"sdf", "mjcf", "urdf"}) {

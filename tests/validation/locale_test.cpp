@@ -12,7 +12,7 @@
 #include "nocsolver/errors.h"
 #include "report/report.h"
 #include "tests/base/temporary_folder.h"
-#include "tests/model/scenario_text.h"
+#include "tests/model/quick_scenario.h"
 #include "validation/validate.h"
 
 namespace ursula {
@@ -42,12 +42,8 @@ class Commas {
   bool in_c_ = false;
 };
 
-std::string quickText() {
-  return replaced(good_scenario, "duration = 3.0", "duration = 0.3") + "\n[simulation]\nsamples = 3\n";
-}
-
 std::string everythingWritten(const std::filesystem::path& folder) {
-  const ValidationResult result = validate(parseScenario(quickText(), "a.toml"));
+  const ValidationResult result = validate(parseScenario(quickScenario(), "a.toml"));
   writeResults(result, folder);
   std::string all;
   for (const char* file : {"summary.json", "timeseries.csv", "report.html"})

@@ -8,7 +8,7 @@
 
 #include "nocsolver/errors.h"
 #include "studies/simulate/simulate.h"
-#include "tests/model/scenario_text.h"
+#include "tests/model/quick_scenario.h"
 #include "validation/replay/replay.h"
 #include "validation/subject/subject.h"
 #include "validation/validate.h"
@@ -16,10 +16,7 @@
 namespace ursula {
 namespace {
 
-Scenario small() {
-  return parseScenario(replaced(good_scenario, "duration = 3.0", "duration = 0.3") + "\n[simulation]\nsamples = 3\n",
-                       "a.toml");
-}
+Scenario small() { return parseScenario(quickScenario(), "a.toml"); }
 
 /// A subject that is right for some questions and then throws.
 template <class Thrown>
