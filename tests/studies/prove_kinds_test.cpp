@@ -54,11 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, DefectsOf,
 
 /// Telescopic legs with friction, under a load.
 const Scenario& telescopes() {
-  static const Scenario scenario = [] {
-    Scenario read = scenarioOf("ups-friction-load");
-    read.simulation.samples = 31;  // for speed
-    return read;
-  }();
+  static const Scenario scenario = scenarioOf("ups-friction-load", 31);  // for speed
   return scenario;
 }
 
@@ -106,10 +102,9 @@ TEST_P(UpsDefect, isCaughtOnTheEnginesThatItMust) {
   const auto defect =
       std::find_if(defects.begin(), defects.end(), [](const Defect& each) { return each.name == GetParam(); });
   ASSERT_NE(defect, defects.end());
-  static const auto reference = makeReference(telescopes());
   ValidationOptions options;
   options.budget = false;
-  options.reference = reference;
+  options.reference = referenceOf("ups-friction-load", 31);
   DefectOutcome outcome{defect->name, defect->group, {}, defect->engines, true, ""};
   for (const Check& check : validateMade(telescopes(), defect->subject, options).checks)
     if (check.verdict == Verdict::fail) outcome.caught_by.push_back(check.name);

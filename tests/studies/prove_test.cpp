@@ -25,11 +25,7 @@ namespace ursula {
 namespace {
 
 const Scenario& provingGround() {
-  static const Scenario scenario = [] {
-    Scenario read = scenarioOf("proving-ground");
-    read.simulation.samples = 31;  // for speed
-    return read;
-  }();
+  static const Scenario scenario = scenarioOf("proving-ground", 31);  // for speed
   return scenario;
 }
 
@@ -41,12 +37,11 @@ int placesOf(const Defect& defect) {
 
 /// Uses one reference for all defects that do not change the scenario.
 std::vector<Check> checksWith(const Defect& defect) {
-  static const auto reference = makeReference(provingGround());
   ValidationOptions options;
   options.budget = false;
   options.fault = std::make_shared<const InjectedFault>(defect.fault);
   if (defect.scenario) return validate(defect.scenario(provingGround()), options).checks;
-  options.reference = reference;
+  options.reference = referenceOf("proving-ground", 31);
   return validateMade(provingGround(), defect.subject ? defect.subject : solverOf, options).checks;
 }
 
@@ -148,13 +143,7 @@ TEST(NoDefect, noticesAnErrorOfTheMechanism) {
   for (const Defect& defect : controls()) {
     if (!defect.subject) continue;
     Defect off = defect;
-    off.subject = [make = defect.subject](const Scenario& scenario) {
-      Subject subject = make(scenario);
-      subject.torques = [right = subject.torques](const Motion<double>& motion) {
-        return Vector6d(1.001 * right(motion));
-      };
-      return subject;
-    };
+    off.subject = [make = defect.subject](const Scenario& scenario) { return scaledTorques(make(scenario), 1.001); };
     EXPECT_EQ(overall(checksWith(off)), Verdict::fail) << defect.name;
     ++noticed;
   }
@@ -206,8 +195,13 @@ TEST(Parameters, areThoseOfPlatformGravityAndSixLegs) {
                                                 {"friction", 42}}));
 }
 
+const std::vector<Sensitivity>& sensitivitiesThere() {
+  static const std::vector<Sensitivity> once = proveSensitivities(provingGround());
+  return once;
+}
+
 TEST(Sensitivities, everyParameterShowsOnTheProvingGround) {
-  const std::vector<Sensitivity> sensitivities = proveSensitivities(provingGround());
+  const std::vector<Sensitivity>& sensitivities = sensitivitiesThere();
   EXPECT_EQ(sensitivities.size(), allParameters(*provingGround().manipulator).size());
   const std::set<std::string> sharp = {"mass", "center", "length", "point", "axis", "gravity"};
   for (const Sensitivity& each : sensitivities) {
@@ -227,7 +221,7 @@ std::string verdictWith(const Parameter& parameter, double relative) {
 
 TEST(Sensitivities, areTheThresholdOfTheCheckItself) {
   const std::vector<Parameter> parameters = allParameters(*provingGround().manipulator);
-  const std::vector<Sensitivity> sensitivities = proveSensitivities(provingGround());
+  const std::vector<Sensitivity>& sensitivities = sensitivitiesThere();
   std::set<std::string> groups;
   for (std::size_t k = 0; k < parameters.size(); k += 7) {
     groups.insert(name(parameters[k].group()));

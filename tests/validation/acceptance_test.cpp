@@ -113,21 +113,13 @@ TEST(UserLimits, acceptNoNaN) {
 class LegThree : public testing::Test {
  protected:
   ValidationResult run(double limit) const {
-    Scenario scenario = scenarioOf("paper-helix");
-    scenario.simulation.samples = 31;
+    Scenario scenario = scenarioOf("paper-helix", 31);
     scenario.acceptance = {{"torque.pointwise", limit}};
-    Subject subject = solverOf(scenario);
-    subject.kinematics = nullptr;
-    subject.accelerations = nullptr;
-    subject.rebuilt = nullptr;
-    subject.torques = [right = subject.torques](const Motion<double>& motion) {
-      Vector6d torques = right(motion);
+    const Subject subject = changedTorques(torquesAlone(scenario), [](const auto&, Vector6d torques) {
       torques(2) *= 1.001;
       return torques;
-    };
-    ValidationOptions quick;
-    quick.ladder = quick.reactions = quick.budget = false;
-    return validate(scenario, subject, quick);
+    });
+    return validate(scenario, subject, {false, false, false, referenceOf("paper-helix", 31)});
   }
 };
 

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <iostream>
 #include <map>
 
@@ -30,29 +29,13 @@ using testing::HasSubstr;
 using testing::Pair;
 
 using StateFault = std::function<void(double t, std::vector<double>& x)>;
-using Change = std::function<Vector6d(const Motion<double>& motion, const Vector6d& torques)>;
-
-/// A scenario's reference, made once with few samples for speed.
-const Reference& referenceOf(const std::string& name) {
-  static std::map<std::string, std::shared_ptr<const Reference>> made;
-  std::shared_ptr<const Reference>& reference = made[name];
-  if (!reference) {
-    Scenario scenario = scenarioOf(name);
-    scenario.simulation.samples = 61;
-    reference = makeReference(scenario);
-  }
-  return *reference;
-}
+constexpr int budget_samples = 61;  ///< few, for speed
 
 /// Replays the windows of the right torques under changed torques, with a falsified state if `fault` has one.
-ErrorBudget budgetOf(const std::string& name, const Change& change = nullptr, const StateFault& fault = nullptr) {
-  const Reference& reference = referenceOf(name);
+ErrorBudget budgetOf(const std::string& name, const TorqueChange& change = nullptr, const StateFault& fault = nullptr) {
+  const Reference& reference = *referenceOf(name, budget_samples);
   const Scenario& scenario = reference.scenario;
-  Subject subject = solverOf(scenario);
-  if (change)
-    subject.torques = [right = subject.torques, change](const Motion<double>& motion) {
-      return change(motion, right(motion));
-    };
+  const Subject subject = change ? changedTorques(solverOf(scenario), change) : solverOf(scenario);
   ReplayPlan plan = reference.replays().plan;
   plan.torques = [subject, trajectory = scenario.trajectory](double t) { return subject.torques(trajectory->at(t)); };
   std::vector<WindowedReplay> windows = reference.replays().windows;
@@ -61,8 +44,8 @@ ErrorBudget budgetOf(const std::string& name, const Change& change = nullptr, co
     settings.fault = fault;
     window.replay = replay(scenario, plan.torques, settings);
   }
-  const auto samples = runPointwise(scenario, subject, reference.instants, reference.rounding().profile);
-  const ErrorBudget budget = attribute(scenario, samples, windows, &reference.replays().amplification, plan);
+  const auto answers = runPointwise(scenario, subject, reference.instants, reference.rounding().profile);
+  const ErrorBudget budget = attribute(scenario, answers, windows, &reference.replays().amplification, plan);
   std::cout << name << ": observed " << budget.observed.norm() << ", model " << budget.model.error.norm()
             << ", integration " << budget.integration.error.norm() << ", rounding " << budget.rounding.error.norm()
             << ", closure " << budget.closure.error.norm() << ", unexplained " << budget.unexplained().norm() << " of "
@@ -143,7 +126,7 @@ TEST(Attribution, doesNotNameTheModelWhereTheIntegratorIsFaulty) {
 
 /// The analysed replay is the one with the largest end error.
 TEST(Attribution, looksAtTheWindowThatEndsFurthestOff) {
-  const Reference& reference = referenceOf("helix-10s");
+  const Reference& reference = *referenceOf("helix-10s", budget_samples);
   ASSERT_GE(reference.replays().windows.size(), 3u);
   double furthest = 0, t = 0;
   for (const WindowedReplay& window : reference.replays().windows)
@@ -167,7 +150,7 @@ TEST(Attribution, comesOutTheSameTwice) {
 }
 
 TEST(Attribution, withoutAReplayNothingIsMeasured) {
-  const Reference& reference = referenceOf("paper-helix");
+  const Reference& reference = *referenceOf("paper-helix", budget_samples);
   const ErrorBudget none =
       attribute(reference.scenario, {}, {}, &reference.replays().amplification, reference.replays().plan);
   EXPECT_FALSE(none.measured);
@@ -246,15 +229,12 @@ TEST(Budgets, nameAmplificationWhereItPreventsJudging) {
 
 /// NaN does not count as zero.
 TEST(Attribution, blamesTheModelForTorquesThatAreNoNumbers) {
-  Scenario scenario = scenarioOf("paper-helix");
-  scenario.simulation.samples = 5;
-  Subject subject = solverOf(scenario);
-  subject.torques = [right = subject.torques](const Motion<double>& motion) {
-    Vector6d torques = right(motion);
+  const Scenario scenario = scenarioOf("paper-helix", 5);
+  const Subject subject = changedTorques(solverOf(scenario), [](const auto&, Vector6d torques) {
     torques(3) = std::nan("");
     return torques;
-  };
-  const ValidationResult result = validate(scenario, subject);
+  });
+  const ValidationResult result = validate(scenario, subject, {false, false});
   EXPECT_EQ(result.verdict, Verdict::fail);
   std::map<std::string, std::string> findings;
   for (const auto& [name, text] : texts(result)) findings.emplace(name, text);

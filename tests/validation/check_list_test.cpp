@@ -17,10 +17,13 @@
 namespace ursula {
 namespace {
 
-Scenario quick(const std::string& name) {
-  Scenario scenario = scenarioOf(name);
-  scenario.simulation.samples = 31;
-  return scenario;
+Scenario quick(const std::string& name) { return scenarioOf(name, 31); }
+
+/// Every part of a validation of the helix, whose reference all tests share.
+ValidationResult resultOf(const Subject& subject) {
+  ValidationOptions options;
+  options.reference = referenceOf("paper-helix", 31);
+  return validate(quick("paper-helix"), subject, options);
 }
 
 void expectEveryCheck(const ValidationResult& result) {
@@ -70,12 +73,7 @@ TEST(CheckList, isWholeForTheSolver) {
 }
 
 TEST(CheckList, isWholeForTorquesAlone) {
-  const Scenario scenario = quick("paper-helix");
-  Subject torques = solverOf(scenario);
-  torques.kinematics = nullptr;
-  torques.accelerations = nullptr;
-  torques.rebuilt = nullptr;
-  const ValidationResult result = validate(scenario, torques);
+  const ValidationResult result = resultOf(torquesAlone(quick("paper-helix")));
   expectEveryCheck(result);
   for (const char* name : {"kinematics.positions", "direct.off_path", "invariance.mass"})
     EXPECT_EQ(verdictOf(result.checks, name), "not_applicable") << name;
@@ -107,10 +105,7 @@ TEST(CheckList, ofNothingJudgedIsNoPass) {
 
 /// Under torques 1 % too large the machine leaves its path, and later there is nothing to show.
 TEST(CheckList, whatWasNotComputedIsNotShown) {
-  const Scenario scenario = quick("paper-helix");
-  Subject wrong = solverOf(scenario);
-  wrong.torques = [right = wrong.torques](const Motion<double>& motion) { return Vector6d(1.01 * right(motion)); };
-  const ValidationResult result = validate(scenario, wrong);
+  const ValidationResult result = resultOf(scaledTorques(solverOf(quick("paper-helix")), 1.01));
   EXPECT_EQ(result.verdict, Verdict::fail);
   const std::vector<double>* error = result.timeseries.find("error_p_m");
   ASSERT_NE(error, nullptr);

@@ -23,25 +23,36 @@ namespace {
 
 using testing::HasSubstr;
 
+/// The helix with its right torques, sampled once for all tests.
+struct RightHelix {
+  Scenario scenario = scenarioOf("paper-helix");
+  RoundingProfile profile{scenario, 31};
+  Subject solver = solverOf(scenario);
+  std::vector<double> instants = equallySpaced(3, 301);
+  std::vector<PointwiseSample> samples = runPointwise(scenario, solver, instants, profile);
+};
+
+const RightHelix& rightHelix() {
+  static const RightHelix once;
+  return once;
+}
+
 class Between : public testing::Test {
  protected:
   Check judge(const Subject& subject) const { return judgeBetween(scenario_, subject, samples_, profile_); }
   /// Right torques with a pulse on leg 3 over [from, from + length).
   Subject pulsed(double from, double length, double size) const {
-    Subject subject = right_;
-    subject.torques = [right = right_.torques, from, length, size](const Motion<double>& motion) {
-      Vector6d torques = right(motion);
+    return changedTorques(right_, [from, length, size](const Motion<double>& motion, Vector6d torques) {
       if (motion.t >= from && motion.t < from + length) torques(2) += size;
       return torques;
-    };
-    return subject;
+    });
   }
 
-  Scenario scenario_ = scenarioOf("paper-helix");
-  RoundingProfile profile_{scenario_, 31};
-  Subject right_ = solverOf(scenario_);
-  std::vector<double> instants_ = equallySpaced(3, 301);
-  std::vector<PointwiseSample> samples_ = runPointwise(scenario_, right_, instants_, profile_);
+  const Scenario& scenario_ = rightHelix().scenario;
+  const RoundingProfile& profile_ = rightHelix().profile;
+  const Subject& right_ = rightHelix().solver;
+  const std::vector<double>& instants_ = rightHelix().instants;
+  const std::vector<PointwiseSample>& samples_ = rightHelix().samples;
 };
 
 TEST_F(Between, rightTorquesPass) {
@@ -96,13 +107,7 @@ TEST_F(Between, saysSoInSeconds) {
   EXPECT_EQ(pulse(judgeBetween(there, subject, samples, profile, natural.units).why), pulse(judge(right_).why));
 }
 
-TEST_F(Between, seesWhatIsWrongEverywhere) {
-  Subject wrong = right_;
-  wrong.torques = [right = right_.torques](const Motion<double>& motion) {
-    return Vector6d((1 + 1e-9) * right(motion));
-  };
-  EXPECT_EQ(judge(wrong).verdict, Verdict::fail);
-}
+TEST_F(Between, seesWhatIsWrongEverywhere) { EXPECT_EQ(judge(scaledTorques(right_, 1 + 1e-9)).verdict, Verdict::fail); }
 
 /// All answers are judged, not only those to the check's own questions.
 TEST_F(Between, everyAnswerIsJudged) {

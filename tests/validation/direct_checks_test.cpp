@@ -19,9 +19,7 @@ using Accelerations = std::function<Vector6d(const Motion<double>&, const Vector
 class Direct : public testing::TestWithParam<std::string> {
  protected:
   Direct() {
-    Scenario scenario = scenarioOf(GetParam());
-    scenario.simulation.samples = 31;
-    reference_ = makeReference(scenario);
+    reference_ = referenceOf(GetParam(), 31);
     right_ = solverOf(here());
     samples_ = runPointwise(here(), right_, reference_->instants, reference_->rounding().profile);
   }

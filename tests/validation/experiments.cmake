@@ -12,7 +12,7 @@ add_executable(witness_tests
 target_link_libraries(witness_tests PRIVATE
   test_support test_components ursula::mujoco fmt::fmt GTest::gmock GTest::gtest_main)
 target_compile_definitions(witness_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
-ursula_test_suites(witness_tests)
+ursula_test_suites(witness_tests LONG Scenarios/Budget Scenarios/Extremes)
 
 # The input that all formulations share: the commanded motion and the load.
 add_executable(commanded_tests

@@ -16,26 +16,22 @@ namespace {
 
 class Extremes : public testing::TestWithParam<std::string> {
  protected:
-  Scenario scenario_ = [] {
-    Scenario read = scenarioOf(GetParam());
-    read.simulation.samples = 31;  // for speed
-    return read;
-  }();
+  Scenario scenario_ = scenarioOf(GetParam(), 31);
+  std::shared_ptr<const Reference> reference_ = referenceOf(GetParam(), 31);
 };
 
 TEST_P(Extremes, exactTorquesPass) {
-  const ValidationResult result = validate(scenario_);
+  ValidationOptions options;
+  options.reference = reference_;
+  const ValidationResult result = validate(scenario_, options);
   EXPECT_EQ(others(result.checks, Verdict::pass), "");
   EXPECT_EQ(result.verdict, Verdict::pass);
   EXPECT_GT(findCheck(result.checks, "feedback.torque")->value, 0);
 }
 
 TEST_P(Extremes, aMillionthTooMuchFails) {
-  Subject subject = solverOf(scenario_);
-  subject.torques = [right = subject.torques](const Motion<double>& motion) {
-    return Vector6d((1 + 1e-6) * right(motion));
-  };
-  const ValidationResult result = validate(scenario_, subject, {false, false});
+  const Subject subject = scaledTorques(solverOf(scenario_), 1 + 1e-6);
+  const ValidationResult result = validate(scenario_, subject, {false, false, false, reference_});
   EXPECT_EQ(result.verdict, Verdict::fail);
   EXPECT_EQ(verdictOf(result.checks, "torque.pointwise"), "fail");
   EXPECT_EQ(verdictOf(result.checks, "feedback.torque"), "fail");

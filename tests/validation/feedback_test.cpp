@@ -9,7 +9,6 @@
 #include <limits>
 #include <memory>
 
-#include "model/instants.h"
 #include "tests/support/vectors.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/judges.h"
@@ -19,33 +18,25 @@
 namespace ursula {
 namespace {
 
-using Change = std::function<Vector6d(const Motion<double>& motion, const Vector6d& torques)>;
-
 /// The check of the NOC's torques after a change.
 class Witness {
  public:
   explicit Witness(const std::string& name) : scenario_(vectorScenario(name)), amplification_(linearised(scenario_)) {
-    right_ = nocSubject(*scenario_.manipulator, scenario_.load);
-    samples_ = runPointwise(scenario_, right_, equallySpaced(scenario_.trajectory->duration(), 21));
-    for (const PointwiseSample& sample : samples_)
-      largest_ = std::max(largest_, sample.torques_simbody.cwiseAbs().maxCoeff());
+    samples_ = rightSamples(scenario_, 21);
   }
 
-  Check judge(const Change& change) const {
-    Subject subject = right_;
-    subject.torques = [this, change](const Motion<double>& motion) { return change(motion, right_.torques(motion)); };
-    return judgeStabilised(stabilisedReplay(scenario_, subject, amplification_, samples_), largest_);
+  Check judge(const TorqueChange& change) const {
+    const Subject subject = changedTorques(solverOf(scenario_), change);
+    return judgeStabilised(stabilisedReplay(scenario_, subject, amplification_, samples_), largest());
   }
 
-  double largest() const { return largest_; }
+  double largest() const { return largestTorque(samples_); }
   double duration() const { return scenario_.trajectory->duration(); }
 
  private:
   Scenario scenario_;
   Amplification amplification_;
-  Subject right_;
   std::vector<PointwiseSample> samples_;
-  double largest_ = 0;
 };
 
 class Feedback : public testing::TestWithParam<std::string> {};

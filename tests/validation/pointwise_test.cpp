@@ -9,8 +9,8 @@
 #include <iostream>
 
 #include "nocsolver/errors.h"
-#include "tests/support/vectors.h"
 #include "tests/validation/checks.h"
+#include "tests/validation/scenario_files.h"
 #include "validation/checks/judges.h"
 #include "validation/validate.h"
 
@@ -34,22 +34,11 @@ Outcome judge(const Scenario& scenario, const Subject& subject, int instants = 3
   return out;
 }
 
-Subject noc(const Scenario& scenario) { return nocSubject(*scenario.manipulator, scenario.load); }
-
-/// The solver's own answers with torques changed by `change`.
-template <class F>
-Subject changedTorques(const Scenario& scenario, F change) {
-  Subject subject = noc(scenario);
-  const auto right = subject.torques;
-  subject.torques = [right, change](const Motion<double>& motion) { return Vector6d(change(motion, right(motion))); };
-  return subject;
-}
-
 class Pointwise : public testing::TestWithParam<std::string> {};
 
 TEST_P(Pointwise, theSolverPasses) {
   const Scenario scenario = vectorScenario(GetParam());
-  const Outcome outcome = judge(scenario, noc(scenario));
+  const Outcome outcome = judge(scenario, solverOf(scenario));
   EXPECT_EQ(others(outcome.checks, Verdict::pass), "");
   for (const std::string& name : kinematic_names) EXPECT_NE(findCheck(outcome.checks, name), nullptr) << name;
   double torque = 0, torque_error = 0, acceleration = 0, acceleration_error = 0;
@@ -68,8 +57,7 @@ TEST_P(Pointwise, theSolverPasses) {
 
 TEST_P(Pointwise, torquesOffByABillionthFail) {
   const Scenario scenario = vectorScenario(GetParam());
-  const Outcome outcome =
-      judge(scenario, changedTorques(scenario, [](const auto&, const Vector6d& tau) { return tau * (1 + 1e-9); }));
+  const Outcome outcome = judge(scenario, scaledTorques(solverOf(scenario), 1 + 1e-9));
   EXPECT_EQ(firstFailing(outcome.checks), "torque.pointwise");
   for (const std::string& name : kinematic_names) EXPECT_EQ(verdictOf(outcome.checks, name), "pass") << name;
 }
@@ -80,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(Machines, Pointwise, testing::ValuesIn(vectorNames()),
 TEST(PointwiseControl, oneInstantOfMany) {
   const Scenario scenario = vectorScenario("paper-helix");
   const double t = equallySpaced(scenario.trajectory->duration(), 31)[17];
-  const Outcome outcome = judge(scenario, changedTorques(scenario, [t](const auto& motion, Vector6d tau) {
+  const Outcome outcome = judge(scenario, changedTorques(solverOf(scenario), [t](const auto& motion, Vector6d tau) {
                                   if (motion.t == t) tau(3) += 1e-3;
                                   return tau;
                                 }));
@@ -113,8 +101,7 @@ TEST(PointwiseControl, formulasAsPrinted) {
 
 TEST(PointwiseControl, notANumberFailsEverything) {
   const Scenario scenario = vectorScenario("paper-helix");
-  Subject subject =
-      changedTorques(scenario, [](const auto&, const Vector6d&) { return Vector6d::Constant(std::nan("")).eval(); });
+  Subject subject = scaledTorques(solverOf(scenario), std::nan(""));
   for (const std::string& name : dynamic_names)
     EXPECT_EQ(verdictOf(judge(scenario, subject, 3).checks, name), "fail") << name;
 
@@ -133,7 +120,7 @@ TEST(PointwiseControl, notANumberFailsEverything) {
 /// One component is NaN among many right ones.
 TEST(PointwiseControl, aSingleNotANumberFailsItsCheck) {
   const Scenario scenario = vectorScenario("paper-helix");
-  Subject subject = noc(scenario);
+  Subject subject = solverOf(scenario);
   const auto right = subject.kinematics;
   subject.kinematics = [right](const Motion<double>& motion) {
     KinematicAnswer answer = right(motion);
@@ -148,7 +135,7 @@ TEST(PointwiseControl, aSingleNotANumberFailsItsCheck) {
 
 TEST(PointwiseControl, aRefusalFailsWithItsReason) {
   const Scenario scenario = vectorScenario("paper-helix");
-  const Subject subject = changedTorques(scenario, [](const Motion<double>& motion, const Vector6d& tau) {
+  const Subject subject = changedTorques(solverOf(scenario), [](const Motion<double>& motion, const Vector6d& tau) {
     if (motion.t > 1) throw StretchedLeg("is stretched", 2, motion.t, 1e-9, 1e-8, "");
     return tau;
   });
@@ -165,7 +152,7 @@ TEST(PointwiseControl, noInstantIsAFailure) {
 
 TEST(PointwiseControl, withoutKinematicsOnlyTorquesAreJudged) {
   const Scenario scenario = vectorScenario("paper-helix");
-  Subject subject = noc(scenario);
+  Subject subject = solverOf(scenario);
   subject.kinematics = nullptr;
   EXPECT_EQ(judge(scenario, subject, 3).checks.size(), dynamic_names.size());
 }

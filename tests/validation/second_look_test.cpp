@@ -59,9 +59,7 @@ TEST_P(SecondLooks, knowTheTorquesOfTheDirectDynamics) {
 }
 
 TEST_P(SecondLooks, seeWhatTheStepsOfAReplayAreOffBy) {
-  Scenario scenario = scenario_;
-  scenario.simulation.samples = 21;
-  const Reference reference(scenario);
+  const Reference& reference = *referenceOf(GetParam(), 21);
   const WindowedReplay& window = reference.replays().windows.front();
   ReplayPlan blunt = reference.replays().plan;
   blunt.tolerance = 1e-8;

@@ -1,6 +1,5 @@
 // A user's tolerance judges torques; their effect on the motion is reported.
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,21 +16,26 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// The paper's helix with torques of leg 3 that are too large by a share.
-ValidationResult judgedWith(double error, std::optional<EffortTolerance> tolerance) {
-  Scenario scenario = scenarioOf("paper-helix");
+constexpr int all_samples = 301;
+
+/// The verdict on torques that `change` makes of the right ones.
+ValidationResult judgedWith(const std::string& name, const std::optional<EffortTolerance>& tolerance,
+                            const TorqueChange& change) {
+  Scenario scenario = scenarioOf(name);
   scenario.tolerance = tolerance;
-  Subject subject = solverOf(scenario);
+  Subject subject = changedTorques(solverOf(scenario), change);
   subject.rebuilt = nullptr;
-  const auto right = subject.torques;
-  subject.torques = [right, error](const Motion<double>& motion) {
-    Vector6d torques = right(motion);
+  ValidationOptions quick{false, false, false};
+  quick.reference = referenceOf(name, all_samples);
+  return validate(scenario, subject, quick);
+}
+
+/// The paper's helix with torques of leg 3 that are too large by a share.
+ValidationResult judgedWith(double error, const std::optional<EffortTolerance>& tolerance) {
+  return judgedWith("paper-helix", tolerance, [error](const auto&, Vector6d torques) {
     torques(2) *= 1 + error;
     return torques;
-  };
-  ValidationOptions quick;
-  quick.ladder = quick.reactions = quick.budget = false;
-  return validate(scenario, subject, quick);
+  });
 }
 
 TEST(Tolerance, passesWhatIsWithinAndSaysWhose) {
@@ -72,21 +76,15 @@ TEST(Tolerance, addsBothParts) {
 /// Three legs of 0.5 m have two motors each, one that rotates and one that slides. Newtons and newton metres are
 /// compared by their numbers.
 TEST(Tolerance, isPlainNumbersForMotorsOfBothSorts) {
-  const auto judged = [](int motor, double error, double absolute) {
-    Scenario scenario = scenarioOf("three-legs");
-    scenario.tolerance = EffortTolerance{0, absolute};
-    Subject subject = solverOf(scenario);
-    subject.rebuilt = nullptr;
-    subject.torques = [right = subject.torques, motor, error](const Motion<double>& motion) {
-      return Vector6d(right(motion) + error * Vector6d::Unit(motor));
-    };
-    ValidationOptions quick;
-    quick.ladder = quick.reactions = quick.budget = false;
-    return validate(scenario, subject, quick).verdict;
+  const auto judged = [](int motor, double error) {
+    return judgedWith(
+               "three-legs", EffortTolerance{0, 5},
+               [=](const auto&, const Vector6d& torques) { return Vector6d(torques + error * Vector6d::Unit(motor)); })
+        .verdict;
   };
   for (const int motor : {0, 1}) {
-    EXPECT_EQ(judged(motor, 4.9, 5), Verdict::pass) << "motor " << motor + 1;
-    EXPECT_EQ(judged(motor, 5.1, 5), Verdict::fail) << "motor " << motor + 1;
+    EXPECT_EQ(judged(motor, 4.9), Verdict::pass) << "motor " << motor + 1;
+    EXPECT_EQ(judged(motor, 5.1), Verdict::fail) << "motor " << motor + 1;
   }
 }
 
@@ -120,8 +118,9 @@ TEST(Tolerance, aReplayThatAcceptanceNamesIsJudged) {
   Scenario scenario = scenarioOf("paper-helix");
   scenario.tolerance = EffortTolerance{1e-3, 0};
   scenario.acceptance = {{"replay.position", 1e-30}};
-  const ValidationResult result = validate(scenario);
-  EXPECT_EQ(verdictOf(result.checks, "replay.position"), "fail");
+  ValidationOptions quick{false, false, false};
+  quick.reference = referenceOf("paper-helix", all_samples);
+  EXPECT_EQ(verdictOf(validate(scenario, quick).checks, "replay.position"), "fail");
 }
 
 TEST(Tolerance, isReadFromAcceptance) {
@@ -143,14 +142,8 @@ TEST(Tolerance, isReadFromAcceptance) {
 /// The file has four digits at 31 instants, which no replay can judge.
 TEST(Tolerance, judgesAFileOfFewDigits) {
   Scenario scenario = scenarioOf("paper-helix");
-  std::string text = "t_s,tau_1_Nm,tau_2_Nm,tau_3_Nm,tau_4_Nm,tau_5_Nm,tau_6_Nm\n";
-  const TorqueTable exact = exactTorques(scenario, 31);
-  for (std::size_t k = 0; k < exact.t.size(); ++k) {
-    text += fmt::format("{:.1f}", exact.t[k]);
-    for (int i = 0; i < leg_count; ++i) text += fmt::format(",{:.3e}", exact.torques[k](i));
-    text += "\n";
-  }
-  const auto judged = [&] { return validateExternal(scenario, parseTorqueFile(text, "four.csv")); };
+  const TorqueFile four = exactTorques(scenario, 31).printed("{:.3e}");
+  const auto judged = [&] { return validateExternal(scenario, four); };
   EXPECT_EQ(judged().verdict, Verdict::inconclusive);
   scenario.tolerance = EffortTolerance{1e-3, 0};
   const ValidationResult tolerant = judged();
@@ -167,7 +160,7 @@ TEST(Tolerance, isRelativeToTheMotionsLargestEffortForAnyFile) {
   start.t.resize(11);
   start.torques.resize(11);
   const auto of = [&](const TorqueTable& table) { return validateExternal(scenario, table.file()).deviation; };
-  const auto short_one = of(start), whole = of(exactTorques(scenario, 31)), own = validate(scenario).deviation;
+  const auto short_one = of(start), whole = of(exactTorques(scenario, 31)), own = judgedWith(0, {}).deviation;
   ASSERT_TRUE(short_one && whole && own);
   EXPECT_EQ(short_one->largest_effort, own->largest_effort);
   EXPECT_EQ(whole->largest_effort, own->largest_effort);

@@ -13,8 +13,8 @@
 #include "nocsolver/errors.h"
 #include "report/report.h"
 #include "report/written_files.h"
-#include "tests/support/vectors.h"
 #include "tests/validation/checks.h"
+#include "tests/validation/scenario_files.h"
 #include "validation/evidence/reference.h"
 
 namespace ursula {
@@ -44,23 +44,27 @@ const std::vector<std::string> of_solvers = {
     "invariance.labels",   "invariance.mass",          "invariance.time_reversal",
     "kinematics.jacobian", "kinematics.jacobian_rate", "kinematics.jacobian_difference"};
 
-/// Fewer instants than by default, for speed.
-Scenario quick(const std::string& name) {
-  Scenario scenario = vectorScenario(name);
-  scenario.simulation.samples = 21;
-  return scenario;
-}
+constexpr int few_samples = 21;  ///< for speed
 
-/// Leaves out what is judged beside the promised checks, for speed.
-const ValidationOptions without_extras{false, false};
+Scenario helix() { return scenarioOf("paper-helix", few_samples); }
+
+/// Leaves out the sources of the error, and what is judged beside the promised checks, for speed.
+const ValidationOptions without_extras{false, false, false};
+
+/// The same on the helix, whose reference all tests share.
+ValidationOptions onHelix(const std::shared_ptr<const InjectedFault>& fault = nullptr, bool whole = false) {
+  ValidationOptions out{whole, whole, whole};
+  out.reference = referenceOf("paper-helix", few_samples);
+  out.fault = fault;
+  return out;
+}
 
 class Validate : public testing::TestWithParam<std::string> {};
 
 TEST_P(Validate, theSolverPasses) {
-  const Scenario scenario = quick(GetParam());
+  const Scenario scenario = scenarioOf(GetParam(), few_samples);
   const bool whole = GetParam() == "paper-helix" || GetParam() == "random-4";  // the others for speed without extras
-  const ValidationResult result =
-      validate(scenario, nocSubject(*scenario.manipulator, nullptr), whole ? ValidationOptions{} : without_extras);
+  const ValidationResult result = validate(scenario, solverOf(scenario), whole ? ValidationOptions{} : without_extras);
   EXPECT_EQ(others(result.checks, Verdict::pass), "");
   EXPECT_EQ(result.verdict, Verdict::pass);
   EXPECT_EQ(result.scenario, GetParam());
@@ -81,8 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Machines, Validate, testing::ValuesIn(vectorNames()),
                          [](const auto& name) { return "of_" + std::string(1, name.param.back()); });
 
 TEST(ValidateResult, carriesSeriesAndProvenance) {
-  const Scenario scenario = quick("paper-helix");
-  const ValidationResult result = validate(scenario, nocSubject(*scenario.manipulator, nullptr), without_extras);
+  const ValidationResult result = validate(helix(), solverOf(helix()), onHelix());
   EXPECT_EQ(result.timeseries.rows(), 21u);
   for (const char* column : {"t_s", "p_x_m", "q_w", "tau_6_Nm", "simbody_tau_1_Nm", "sim_p_z_m", "sim_q_z", "error_p_m",
                              "error_q_rad", "closure_p_m", "error_energy_J"})
@@ -96,26 +99,13 @@ TEST(ValidateResult, carriesSeriesAndProvenance) {
                                            "integrator", "tolerance", "samples"}));
 }
 
-TEST(ValidateControl, theFormulaErrorOf15aFailsAndTheJointRatesAreNamedFirst) {
-  const Scenario scenario = quick("paper-helix");
-  const ValidationResult result =
-      validate(scenario, wrongNocSubject(*scenario.manipulator, nullptr, WithFormulaErrors(FormulaError::eq15a)),
-               without_extras);
-  EXPECT_EQ(result.verdict, Verdict::fail);
-  EXPECT_EQ(firstFailing(result.checks), "kinematics.joint_rates");
-  EXPECT_EQ(verdictOf(result.checks, "kinematics.joint_angles"), "pass");
-  EXPECT_EQ(verdictOf(result.checks, "torque.pointwise"), "fail");
-}
-
 /// The users' kernels are judged beside the NOC, and their errors are not the NOC's.
 TEST(ValidateControl, aWrongFastKernelFailsAndTheNocHolds) {
   const auto fault = std::make_shared<InjectedFault>();
   fault->fast.answers = [](FastAnswers& answers) {
     for (Vector6d& torques : answers.torques_in_batch) torques(0) *= 1 + 1e-7;
   };
-  ValidationOptions options = without_extras;
-  options.fault = fault;
-  const ValidationResult result = validate(quick("paper-helix"), options);
+  const ValidationResult result = validate(helix(), onHelix(fault));
   EXPECT_EQ(result.verdict, Verdict::fail);
   EXPECT_EQ(result.subject.formulation, Formulation::noc);
   EXPECT_EQ(firstFailing(result.checks), "fast.inverse_batch");
@@ -133,9 +123,7 @@ TEST(ValidateControl, aWrongPoseAtTheEndOfABatchFails) {
     ASSERT_GT(answers.torques_in_batch.size(), 4000U);
     answers.torques_in_batch.back()(0) *= 1 + 1e-7;
   };
-  ValidationOptions options = without_extras;
-  options.fault = fault;
-  EXPECT_EQ(firstFailing(validate(quick("paper-helix"), options).checks), "fast.inverse_batch");
+  EXPECT_EQ(firstFailing(validate(helix(), onHelix(fault)).checks), "fast.inverse_batch");
 }
 
 /// If the kernels for single poses are wrong, nothing is learnt between the samples, but the NOC's deviation is still
@@ -143,9 +131,7 @@ TEST(ValidateControl, aWrongPoseAtTheEndOfABatchFails) {
 TEST(ValidateControl, aWrongKernelOfOnePoseLeavesTheDeviationKnown) {
   const auto fault = std::make_shared<InjectedFault>();
   fault->fast.answers = [](FastAnswers& answers) { answers.torques.front()(0) *= 1 + 1e-7; };
-  ValidationOptions options = without_extras;
-  options.fault = fault;
-  const ValidationResult result = validate(quick("paper-helix"), options);
+  const ValidationResult result = validate(helix(), onHelix(fault));
   EXPECT_EQ(firstFailing(result.checks), "fast.inverse");
   EXPECT_EQ(verdictOf(result.checks, "torque.between"), "inconclusive");
   ASSERT_TRUE(result.deviation);
@@ -154,14 +140,11 @@ TEST(ValidateControl, aWrongKernelOfOnePoseLeavesTheDeviationKnown) {
 
 /// An error of the NOC is not an error of the fast kernels, although both checks see it.
 TEST(ValidateControl, aWrongNocFailsAndTheTorquesAreNamed) {
-  const Scenario scenario = quick("paper-helix");
   for (const FormulaError formula_error : {FormulaError::scaled_efforts, FormulaError::scaled_first_effort}) {
-    const ValidationResult result = validateMade(
-        scenario,
-        [formula_error](const Scenario& s) {
-          return wrongNocSubject(*s.manipulator, s.load, WithFormulaErrors(formula_error));
-        },
-        without_extras);
+    const SubjectOf wrong = [formula_error](const Scenario& s) {
+      return wrongNocSubject(*s.manipulator, s.load, WithFormulaErrors(formula_error));
+    };
+    const ValidationResult result = validateMade(helix(), wrong, onHelix());
     EXPECT_EQ(result.verdict, Verdict::fail);
     EXPECT_EQ(firstFailing(result.checks), "torque.pointwise");
     EXPECT_FALSE(onlyFastFails(result.checks));
@@ -169,21 +152,15 @@ TEST(ValidateControl, aWrongNocFailsAndTheTorquesAreNamed) {
 }
 
 TEST(ValidateControl, torquesOffByABillionthFail) {
-  const Scenario scenario = quick("paper-helix");
-  Subject subject = nocSubject(*scenario.manipulator, nullptr);
-  const auto right = subject.torques;
-  subject.torques = [right](const Motion<double>& motion) { return Vector6d(right(motion) * (1 + 1e-9)); };
-  const ValidationResult result = validate(scenario, subject, without_extras);
+  const ValidationResult result = validate(helix(), scaledTorques(solverOf(helix()), 1 + 1e-9), onHelix());
   EXPECT_EQ(result.verdict, Verdict::fail);
   EXPECT_EQ(firstFailing(result.checks), "torque.pointwise");
 }
 
 TEST(ValidateControl, torquesThatAreNoNumbersNeverPass) {
-  const Scenario scenario = quick("paper-helix");
-  Subject subject = nocSubject(*scenario.manipulator, nullptr);
+  Subject subject = scaledTorques(solverOf(helix()), std::nan(""));
   subject.kinematics = nullptr;
-  subject.torques = [](const Motion<double>&) { return Vector6d(Vector6d::Constant(std::nan(""))); };
-  const ValidationResult result = validate(scenario, subject);
+  const ValidationResult result = validate(helix(), subject, onHelix(nullptr, true));
   EXPECT_EQ(result.verdict, Verdict::fail);
   for (const std::string& name : promised)
     EXPECT_EQ(verdictOf(result.checks, name), name.rfind("kinematics.", 0) == 0 ? "not_applicable" : "fail") << name;
@@ -193,12 +170,7 @@ TEST(ValidateControl, torquesThatAreNoNumbersNeverPass) {
 
 /// With torques alone, only checks that need a solver are left out.
 TEST(ValidateControl, torquesAloneAreJudgedByWhatNeedsNoMore) {
-  const Scenario scenario = quick("paper-helix");
-  Subject subject = nocSubject(*scenario.manipulator, nullptr);
-  subject.kinematics = nullptr;
-  subject.accelerations = nullptr;
-  subject.rebuilt = nullptr;
-  const ValidationResult result = validate(scenario, subject, without_extras);
+  const ValidationResult result = validate(helix(), torquesAlone(helix()), onHelix());
   EXPECT_EQ(result.verdict, Verdict::pass) << others(result.checks, Verdict::pass);
   for (const std::string& name : promised)
     EXPECT_EQ(verdictOf(result.checks, name), name.rfind("kinematics.", 0) == 0 ? "not_applicable" : "pass") << name;
@@ -207,42 +179,32 @@ TEST(ValidateControl, torquesAloneAreJudgedByWhatNeedsNoMore) {
 
 /// The parts that depend on the scenario alone may be made before, for many subjects.
 TEST(ValidateResult, isTheSameWithAReferenceMadeBefore) {
-  const Scenario scenario = quick("random-2");
-  ValidationOptions with_reference = without_extras;
-  with_reference.reference = makeReference(scenario);
-  const auto run = [&](const ValidationOptions& options) {
-    return report::summaryJson(validate(scenario, nocSubject(*scenario.manipulator, nullptr), options));
+  const auto run = [](const ValidationOptions& options) {
+    return report::summaryJson(validate(helix(), solverOf(helix()), options));
   };
-  const std::string made_before = run(with_reference);
-  EXPECT_EQ(made_before, run(without_extras));
-  EXPECT_EQ(made_before, run(with_reference)) << "the first left something behind";
+  run(onHelix());
+  EXPECT_EQ(run(onHelix()), run(without_extras)) << "the first left something behind";
 }
 
 /// Results that other threads make in advance equal those made on request.
 TEST(ValidateResult, isTheSameWhateverTheNumberOfThreads) {
-  const Scenario scenario = quick("paper-helix");
-  const auto run = [&](int threads) {
+  const auto run = [](int threads) {
     ValidationOptions options;
     options.threads = threads;
-    return report::summaryJson(validate(scenario, options));
+    return report::summaryJson(validate(helix(), options));
   };
-  const std::string alone = run(1);
-  EXPECT_EQ(run(2), alone);
-  EXPECT_EQ(run(5), alone);
+  EXPECT_EQ(run(5), run(1));
 }
 
 /// Tests the checks of replays: a state falsified after each step fails them, and no pointwise check.
 TEST(ValidateControl, aFaultyReplayFails) {
-  const Scenario scenario = quick("paper-helix");
-  ValidationOptions faulty = without_extras;
-  InjectedFault fault;
-  fault.replay = [](ReplaySettings& settings) {
+  const auto fault = std::make_shared<InjectedFault>();
+  fault->replay = [](ReplaySettings& settings) {
     settings.fault = [](double, std::vector<double>& x) {
       for (double& each : x) each *= 1 + 1e-9;
     };
   };
-  faulty.fault = std::make_shared<const InjectedFault>(fault);
-  const ValidationResult result = validate(scenario, faulty);
+  const ValidationResult result = validate(helix(), onHelix(fault));
   EXPECT_EQ(verdictOf(result.checks, "replay.position"), "fail");
   for (const char* name : {"torque.pointwise", "torque.between", "acceleration.pointwise", "direct.off_path"})
     EXPECT_EQ(verdictOf(result.checks, name), "pass") << name;
@@ -250,9 +212,7 @@ TEST(ValidateControl, aFaultyReplayFails) {
 
 /// Verdicts are the same whether the subject is made for the well-scaled or for the given scenario.
 TEST(ValidateResult, doesNotDependOnHowTheSubjectIsMade) {
-  const Scenario scenario = quick("paper-helix");
-  const SubjectOf make = [](const Scenario& here) { return nocSubject(*here.manipulator, here.load); };
-  const ValidationResult made = validateMade(scenario, make, without_extras), own = validate(scenario, without_extras);
+  const ValidationResult made = validateMade(helix(), solverOf, onHelix()), own = validate(helix(), onHelix());
   ASSERT_EQ(made.checks.size(), own.checks.size());
   for (std::size_t k = 0; k < made.checks.size(); ++k) {
     EXPECT_EQ(made.checks[k].name, own.checks[k].name);
@@ -264,12 +224,11 @@ TEST(ValidateResult, doesNotDependOnHowTheSubjectIsMade) {
 }
 
 TEST(ValidateControl, aSubjectThatRefusesFailsWithItsReason) {
-  const Scenario scenario = quick("paper-helix");
-  Subject subject = nocSubject(*scenario.manipulator, nullptr);
+  Subject subject = solverOf(helix());
   subject.torques = [](const Motion<double>& motion) -> Vector6d {
     throw SingularJacobian("B is singular, its smallest pivot over its largest", -1, motion.t, 0, 1e-15, "");
   };
-  ValidationResult result = validate(scenario, subject);
+  ValidationResult result = validate(helix(), subject, onHelix(nullptr, true));
   EXPECT_EQ(result.verdict, Verdict::fail);
   const auto is_shared = [](const Check& check) { return check.name.rfind("motion.", 0) == 0; };  // not the subject's
   result.checks.erase(std::remove_if(result.checks.begin(), result.checks.end(), is_shared), result.checks.end());
@@ -278,17 +237,17 @@ TEST(ValidateControl, aSubjectThatRefusesFailsWithItsReason) {
 }
 
 TEST(ValidateControl, aMotionOutOfReachIsNotJudged) {
-  Scenario scenario = quick("paper-helix");
-  HelixParameters helix;
-  helix.radius = 0.2, helix.pitch = 1.2, helix.end_angle = 1, helix.height_phase = 20;
-  scenario.trajectory = makeHelix(helix);
+  Scenario scenario = helix();
+  HelixParameters high;
+  high.radius = 0.2, high.pitch = 1.2, high.end_angle = 1, high.height_phase = 20;
+  scenario.trajectory = makeHelix(high);
   EXPECT_THROW(validate(scenario), PoseError);
 }
 
 TEST(Acceptance, holdsWhatTheUserSays) {
-  Scenario scenario = quick("paper-helix");
+  Scenario scenario = helix();
   scenario.acceptance = {{"torque.pointwise", 1e-13}, {"replay.position", 1}, {"torque.pontwise", 1}};
-  const ValidationResult result = validate(scenario, nocSubject(*scenario.manipulator, nullptr), without_extras);
+  const ValidationResult result = validate(scenario, solverOf(scenario), onHelix());
   EXPECT_EQ(result.verdict, Verdict::fail);
   const Check* torque = findCheck(result.checks, "torque.pointwise");
   EXPECT_EQ(torque->verdict, Verdict::fail);
@@ -297,15 +256,6 @@ TEST(Acceptance, holdsWhatTheUserSays) {
   EXPECT_EQ(verdictOf(result.checks, "replay.position"), "pass");
   EXPECT_EQ(findCheck(result.checks, "replay.position")->limit, 1);
   EXPECT_EQ(verdictOf(result.checks, "torque.pontwise"), "fail") << "a check that was not made is no pass";
-}
-
-TEST(Determinism, twoRunsAreTheSameToTheLastByte) {
-  Scenario scenario = quick("random-4");
-  scenario.simulation.samples = 5;
-  const auto run = [&] { return validate(scenario, nocSubject(*scenario.manipulator, nullptr), without_extras); };
-  const ValidationResult a = run(), b = run();
-  EXPECT_EQ(report::summaryJson(a), report::summaryJson(b));
-  EXPECT_EQ(a.timeseries.columns, b.timeseries.columns);
 }
 
 TEST(EquallySpaced, hasBothEnds) {

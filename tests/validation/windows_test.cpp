@@ -18,6 +18,17 @@ namespace ursula {
 namespace {
 
 /// The paper's helix in 10 s, in which deviations grow too much for one window.
+struct LongHelix {
+  Scenario scenario = scenarioOf("helix-10s");
+  std::vector<PointwiseSample> samples = rightSamples(scenario, 21);
+  Amplification amplification = linearised(scenario);
+};
+
+const LongHelix& longHelix() {
+  static const LongHelix once;
+  return once;
+}
+
 class LongMotion : public testing::Test {
  protected:
   SimbodyLoop::TorqueHistory right() const {
@@ -45,11 +56,11 @@ class LongMotion : public testing::Test {
     return judgeReplay(replays, positionScale(samples_), amplification_.length(), loopForces(samples_));
   }
 
-  Scenario scenario_ = scenarioOf("helix-10s");
+  const Scenario& scenario_ = longHelix().scenario;
   double duration_ = scenario_.trajectory->duration();
   Subject solver_ = solverOf(scenario_);
-  std::vector<PointwiseSample> samples_ = rightSamples(scenario_, 21);
-  Amplification amplification_ = linearised(scenario_);
+  const std::vector<PointwiseSample>& samples_ = longHelix().samples;
+  const Amplification& amplification_ = longHelix().amplification;
 };
 
 TEST_F(LongMotion, isCoveredEndToEnd) {
