@@ -10,7 +10,6 @@ add_executable(identify_tests
 )
 # The evidence that docs/identify.md quotes, with what is not reached yet.
 add_executable(identify_logs EXCLUDE_FROM_ALL
-  identify/open_test.cpp
   identify/outside_test.cpp
   identify/random_logs.cpp
   identify/random_logs_test.cpp
@@ -21,4 +20,4 @@ foreach(program identify_tests identify_logs)
     test_support test_components ursula::simbody_loop nlohmann_json::nlohmann_json fmt::fmt GTest::gmock GTest::gtest_main)
   target_compile_definitions(${program} PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
 endforeach()
-ursula_test_suites(identify_tests)
+ursula_test_suites(identify_tests LONG ClosedFormLogs Identify)
