@@ -26,7 +26,7 @@ from slurm_cluster import Cluster, NoCluster, wait_until  # noqa: E402
 
 SHARDS = 4
 KILLED, OTHERS = 2, (1, 3, 4)
-SECONDS_A_TASK = 6  # of work, so that a signal or limit meets a working task
+SECONDS_A_TASK = 4  # of work, so that a signal or limit meets a working task
 LEAST_POINTS = 60  # of a task
 SWEEP = """\
 scenario = {scenario}
