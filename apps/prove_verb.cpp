@@ -63,7 +63,7 @@ void printMatrix(const std::vector<DefectOutcome>& outcomes) {
     }
     shown += outcome.shows;
     on_one += outcome.shows && outcome.formulations_wanted == 1;
-    fmt::print("{:>4}{}\n", outcome.engines(), remark(outcome));
+    fmt::print("{:>4}{}\n", outcome.formulations(), remark(outcome));
   }
   fmt::print(
       "\n{} defects, {} of them change results here; {} of these can show on one formulation only; {} are caught on "

@@ -105,7 +105,7 @@ TEST_P(UpsDefect, isCaughtOnTheEnginesThatItMust) {
   ValidationOptions options;
   options.budget = false;
   options.reference = referenceOf("ups-friction-load", 31);
-  DefectOutcome outcome{defect->name, defect->group, {}, defect->engines, true, ""};
+  DefectOutcome outcome{defect->name, defect->group, {}, defect->formulations_wanted, true, ""};
   for (const Check& check : validateMade(telescopes(), defect->subject, options).checks)
     if (check.verdict == Verdict::fail) outcome.caught_by.push_back(check.name);
   EXPECT_TRUE(outcome.caught()) << outcome.formulations() << " of " << outcome.formulations_wanted << ", by "

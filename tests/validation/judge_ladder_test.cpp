@@ -207,11 +207,10 @@ TEST(JudgeLadder, failsWhereNoneWasClimbed) {
 }
 
 TEST(WorkPrecision, hasARowForEachRungOfTheFirstIntegrator) {
-  const TimeSeries series = workPrecision(madeLadder());
-  ASSERT_NE(series.find("evaluations"), nullptr);
-  ASSERT_NE(series.find("rkf78_error_m"), nullptr);
-  EXPECT_EQ(*series.find("evaluations"), (std::vector<double>{300, 450, 800}));
-  EXPECT_EQ(*series.find("rkf78_error_m"), (std::vector<double>{1e-8, 1e-10, 1e-12}));
+  const Curve curve = workPrecision(madeLadder());
+  EXPECT_EQ(curve.x, (std::vector<double>{300, 450, 800}));
+  ASSERT_EQ(curve.lines.size(), 1u);
+  EXPECT_EQ(curve.lines[0].values, (std::vector<double>{1e-8, 1e-10, 1e-12}));
 }
 
 }  // namespace

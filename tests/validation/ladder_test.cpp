@@ -141,8 +141,8 @@ TEST(PaperHelixLadder, saysNothingOfTorquesThatLoseTheMachine) {
 }
 
 TEST(WorkPrecision, moreWorkIsMorePrecise) {
-  const TimeSeries series = workPrecision(rightClimb().ladder());
-  const std::vector<double>&work = series.columns[0], &errors = series.columns[1];
+  const Curve curve = workPrecision(rightClimb().ladder());
+  const std::vector<double>&work = curve.x, &errors = curve.lines.at(0).values;
   ASSERT_EQ(work.size(), 3u);
   for (std::size_t k = 1; k < work.size(); ++k) {
     EXPECT_GT(work[k], work[k - 1]);
