@@ -16,7 +16,7 @@ foreach(suite IN LISTS suites_found)
   add_test("${suites_prefix}${suite}" "${suites_of}" "--gtest_filter=${suite}.*")
   # GoogleTest lists skipped tests before failed ones, so output that ends with a skip has no failure.
   set_tests_properties("${suites_prefix}${suite}" PROPERTIES SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\] [^\n]+\n*$")
-  if(suite IN_LIST suites_long)
+  if(";${suites_long};" MATCHES ";${suite};")
     set_tests_properties("${suites_prefix}${suite}" PROPERTIES COST 40)
   endif()
   if(suites_labels)
