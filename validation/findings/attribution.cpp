@@ -169,9 +169,9 @@ ErrorSource dominantOf(const ErrorBudget& budget) {
 
 /// `at(k, t)` gives the contributions at entry k.
 template <class F>
-std::vector<std::vector<double>> curveOf(const Tracks& tracks, const std::vector<double>& instants, F&& at,
-                                         const WindowedReplay& window, double scale) {
-  std::vector<std::vector<double>> out(8);
+std::array<std::vector<double>, 8> curveOf(const Tracks& tracks, const std::vector<double>& instants, F&& at,
+                                           const WindowedReplay& window, double scale) {
+  std::array<std::vector<double>, 8> out;
   for (std::size_t k = 0; k < instants.size(); ++k) {
     const ErrorBudget there = at(k, instants[k]);
     const Vector3d sizes[] = {there.observed,          there.rounding.error,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,7 @@ struct ErrorBudget {
   bool measured = false;  ///< false without a replay to analyse
   /// From the window's start to t, for a plot: instants, sizes of the contributions as in addBudget(), limit of the
   /// judged replay. NaN where a replay ended earlier.
-  std::vector<std::vector<double>> along;
+  std::array<std::vector<double>, 8> along;
 
   Vector3d unexplained() const;
   /// Uncertainty of the sum of the contributions, m.
