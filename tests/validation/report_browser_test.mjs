@@ -196,9 +196,16 @@ test("all charts are on paper, in light colours, from a dark page that was not s
   const charts = await page.locator("[data-plot]").count();
   assert.ok((await page.locator("canvas").count()) < charts);
   const pdf = (await page.pdf({ format: "A4" })).toString("latin1");
-  assert.ok(pdf.match(/\/Subtype\s*\/Image/g).length >= charts);
   assert.equal(await page.locator("[data-plot] canvas").count(), charts);
-  assert.equal(await page.evaluate(() => document.documentElement.classList.contains("paper")), false);
+  const background = (event) =>
+    page.evaluate((name) => {
+      if (name) window.dispatchEvent(new Event(name));
+      return getComputedStyle(document.body).backgroundColor;
+    }, event);
+  const dark = await background();
+  assert.equal(await background("beforeprint"), "rgb(255, 255, 255)");
+  assert.equal(await background("afterprint"), dark);
+  assert.notEqual(dark, "rgb(255, 255, 255)");
   const pages = pdf.match(/\/Type\s*\/Page\b/g).length;
   assert.ok(pages <= 4, `${pages} pages of A4`);
   assert.deepEqual(complaints, []);
