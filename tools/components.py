@@ -9,7 +9,7 @@ import sources
 # studies/ may also see the entry, validation/*.cpp, and report/.
 VALIDATION = {
     "verdict": "",
-    "subject": "verdict",
+    "subject": "",
     "limits": "verdict subject",
     "samples": "verdict subject limits",
     "replay": "verdict subject limits samples",

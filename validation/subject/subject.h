@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "model/joint_variables.h"
+#include "model/judged_subject.h"
 #include "model/load.h"
 #include "model/manipulator.h"
 #include "model/motion.h"
 #include "model/scenario.h"
 #include "nocsolver/legs/reading.h"
-#include "validation/verdict/result.h"
 
 namespace ursula {
 

@@ -74,11 +74,6 @@ const char* name(ErrorSource source) {
   return names[static_cast<std::size_t>(source)];
 }
 
-const char* name(Formulation formulation) {
-  static constexpr const char* names[] = {"noc", "fast", "external"};
-  return names[static_cast<std::size_t>(formulation)];
-}
-
 const char* name(LimitBy limit_by) { return limit_by == LimitBy::user ? "user" : "derived"; }
 
 Check judged(std::string name, double value, double limit, std::string unit, std::string basis, std::string why) {

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "model/judged_subject.h"
+
 namespace ursula {
 
 /// In the order of their names in result.cpp.
@@ -258,22 +260,6 @@ struct Finding {
 
 /// Returns the fact in words: "4e-11 m +- 4e-12 m", "0.57, leg 2 at t = 0 s".
 std::string textOf(const Finding& finding);
-
-/// The origin of a subject's formulas: the paper as printed, the users' kernels, or another program.
-enum class Formulation { noc, fast, external };
-/// "noc", "fast" or "external".
-const char* name(Formulation formulation);
-
-/// How a user calls a subject: nothing or a function in a program, `--torques` or `--solver`.
-enum class CalledBy { program, torques, solver };
-
-/// The judged solver or file.
-struct JudgedSubject {
-  std::string name;  ///< "noc", a file's name, a solver's command, a function's name
-  Formulation formulation = Formulation::external;
-  CalledBy called_by = CalledBy::program;
-  std::string map = {};  ///< columns that the user named, as TorqueFile has them
-};
 
 /// The result of one scenario's validation. Provenance keeps its order: (key, value as text).
 struct ValidationResult {
