@@ -12,6 +12,7 @@
 #include "base/real50.h"
 #include "model/exact_trajectory.h"
 #include "model/scenario_keys.h"
+#include "model/trajectories/trajectories.h"
 #include "studies/random/random_scenario.h"
 #include "tests/base/temporary_folder.h"
 #include "tests/support/numbers.h"
