@@ -14,7 +14,12 @@
 namespace ursula::report {
 namespace {
 
-/// Round numbers within [low, high], about `count` of them.
+constexpr double panel = 230, left = 70, top = 62;  // px
+constexpr double overlap = 0.3;                     // px: prevents hairlines between cells
+constexpr int colours = 24;
+constexpr std::size_t most_labelled = 6;  // up to this many cells, each has a label
+
+/// Returns round numbers within [low, high], about `count` of them.
 std::vector<double> roundTicks(double low, double high, int count) {
   std::vector<double> out;
   if (!(high > low)) return out;
@@ -24,11 +29,6 @@ std::vector<double> roundTicks(double low, double high, int count) {
   for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) out.push_back(k * step);
   return out;
 }
-
-constexpr double panel = 230, left = 70, top = 62;  // px
-constexpr double overlap = 0.3;                     // px: prevents hairlines between cells
-constexpr int colours = 24;
-constexpr std::size_t most_labelled = 6;  // up to this many cells, each has a label
 
 /// A colour of viridis, which keeps its order in grey and for colour-blind readers.
 std::string colour(int k) {

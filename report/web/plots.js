@@ -222,15 +222,15 @@ export function drawCharts(document, data, clock) {
     for (const redraw of redraws.values()) redraw(size);
     clock.set(clock.t); // moves the marks to the present time
   };
-  const turn = (printed) => {
+  const setPaper = (printed) => {
     document.documentElement.classList.toggle("paper", printed);
     redrawAll(printed ? paper : undefined);
   };
   window.addEventListener("resize", () => redrawAll());
   window.addEventListener("beforeprint", () => {
     for (const host of hosts) if (host.clientWidth > 0) draw(host); // not in folded parts
-    turn(true);
+    setPaper(true);
   });
-  window.addEventListener("afterprint", () => turn(false));
+  window.addEventListener("afterprint", () => setPaper(false));
   watchTheme(() => redrawAll());
 }

@@ -34,8 +34,8 @@ struct ErrorBudget {
   double amplification = 0;   ///< growth of a deviation at the window's start; not an error itself
   ErrorSource dominant = ErrorSource::unexplained;
   bool measured = false;  ///< false without a replay to analyse
-  /// From the window's start to t, for a plot: instants, sizes of the contributions as in addBudget(), limit of the
-  /// judged replay. NaN where a replay ended earlier.
+  /// The lines of a plot over the window: instants, observed error, the five parts that addBudget() names, the judged
+  /// replay's limit. A part is NaN where its replay ended earlier.
   std::array<std::vector<double>, 8> along;
 
   Vector3d unexplained() const;

@@ -15,6 +15,14 @@
 namespace ursula {
 namespace {
 
+template <class Rows, class F>
+std::vector<double> valuesOf(const Rows& rows, F&& value) {
+  std::vector<double> out;
+  out.reserve(rows.size());
+  for (const auto& row : rows) out.push_back(value(row));
+  return out;
+}
+
 /// Adds columns to a series, named by quantity and unit.
 class Columns {
  public:
@@ -24,10 +32,9 @@ class Columns {
   template <class Rows, class F>
   void add(const std::string& quantity, const std::string& unit, const Rows& rows, F&& value, double offset = 0) {
     const double size = from_ == nullptr ? 1 : from_->units.of(unit);
-    std::vector<double> values;
-    values.reserve(rows.size());
-    for (const auto& row : rows) values.push_back(from_ == nullptr ? value(row) : value(row) * size + offset);
-    series_.add(quantity + (unit.empty() ? "" : "_") + unit, std::move(values));
+    series_.add(quantity + (unit.empty() ? "" : "_") + unit, valuesOf(rows, [&](const auto& row) {
+                  return from_ == nullptr ? value(row) : value(row) * size + offset;
+                }));
   }
 
   /// `pattern` contains one {} for x, y, z.
@@ -88,13 +95,6 @@ Curve growth(const std::vector<WindowedReplay>& windows, const Units& units) {
           true,
           t,
           {{"of the state", "1", from_state}, {"of the velocity", "s", from_velocity}}};
-}
-
-template <class Rows, class F>
-std::vector<double> valuesOf(const Rows& rows, F&& value) {
-  std::vector<double> out;
-  for (const auto& row : rows) out.push_back(value(row));
-  return out;
 }
 
 Curve distances(const std::vector<PointwiseSample>& samples, const Units& units) {
