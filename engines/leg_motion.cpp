@@ -25,7 +25,7 @@ void passJoint(const Vector3d& origin, const Vector3d& axis, bool slides, double
 }
 
 /// Fills the bodies from the other members.
-void moveBodies(const LegChain& chain, LegState& state) {
+void moveBodies(const LegChain& chain, LegMotion& state) {
   ChainBody body;
   for (int j = 0; j < 3; ++j) {
     const auto k = static_cast<std::size_t>(j), link = static_cast<std::size_t>(chain.linkOf(j));
@@ -50,10 +50,10 @@ Vector3d legCoordinates(const Leg& leg, int index, const Matrix3d& frame, const 
   throw std::domain_error(fmt::format("leg {} cannot reach over {} m at t = {} s", index + 1, AB.norm(), motion.t));
 }
 
-LegState legState(const LegChain& chain, const Leg& leg, int index, const Motion<double>& motion, bool with_bias) {
+LegMotion legState(const LegChain& chain, const Leg& leg, int index, const Motion<double>& motion, bool with_bias) {
   const ChainBody platform = platformOf(motion);
   const Vector3d B = platform.frame * leg.platform_point;
-  LegState out;
+  LegMotion out;
   out.q = legCoordinates(leg, index, chain.frame, motion);
   constexpr int newton_steps = 3;
   for (int step = 0; step < newton_steps; ++step) {

@@ -24,7 +24,7 @@ struct ChainBody {
   }
 };
 
-struct LegState {
+struct LegMotion {
   Vector3d q = Vector3d::Zero(), rates = Vector3d::Zero(), accelerations = Vector3d::Zero();
   PlacedChain at;
   std::array<ChainBody, 2> bodies;
@@ -39,7 +39,7 @@ Vector3d legCoordinates(const Leg& leg, int index, const Matrix3d& frame, const 
 
 /// Returns the leg's state at the motion, with coordinates to rounding. Without `with_bias` its accelerations lack J̇ u.
 /// Throws std::domain_error if the leg cannot reach.
-LegState legState(const LegChain& chain, const Leg& leg, int index, const Motion<double>& motion, bool with_bias);
+LegMotion legState(const LegChain& chain, const Leg& leg, int index, const Motion<double>& motion, bool with_bias);
 
 /// Returns the friction forces that act on a leg's three coordinates.
 Vector3d frictionOn(const Leg& leg, const Vector3d& rates);

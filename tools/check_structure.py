@@ -42,7 +42,9 @@ USERS_HEADER = re.compile(r"[a-z_]+|Eigen/\w+|ursula/\w+\.h")
 # Within nocsolver/ the judged NOC and the fast kernels never see each other.
 WITHIN_SOLVER = {"legs": {"legs"}, "noc": {"noc", "legs"}, "fast": {"fast", "legs"},
                  "poses": {"poses", "noc", "fast", "legs", ""}, "": {"noc", "fast", "legs", ""}}
-OTHER_ROAD = re.compile(r"^engines/(\w+)/")
+NAMESPACE = re.compile(r"namespace ([\w:]+) \{")
+TYPE = re.compile(r"(?:struct|class|enum class|enum) (\w+)(?: final)?(?: : [^;{]*)? ?\{")
+ENGINE_FOLDER = re.compile(r"^engines/(\w+)/")
 
 MAP = "docs/equations.md"
 TAGGED_FOLDERS = ("base", "model", "nocsolver", "engines", "exchange", "validation", "report", "studies")
@@ -68,7 +70,7 @@ def check_includes(root):
             top = name.split("/")[0]
             if top in sources.FOLDERS and top != folder and top not in ALLOWED[folder].split():
                 findings.append(f"{place}: {folder}/ may not include {top}/ ({name})")
-            if folder == top == "nocsolver" and name not in ("nocsolver/errors.h", "nocsolver/errors.h"):
+            if folder == top == "nocsolver" and name != "nocsolver/errors.h":
                 here, there = (part.split("/")[1] if part.count("/") > 1 else "" for part in (path, name))
                 if there not in WITHIN_SOLVER.get(here, set()):
                     findings.append(f"{place}: nocsolver/{here} may not include nocsolver/{there} ({name})")
@@ -87,14 +89,14 @@ def check_engines(root, path):
     findings = []
     for name, chain in sources.reach(root, path).items():
         via = " -> ".join(chain)
-        if path.startswith("nocsolver/") and (ENGINE_HEADER.search(name) or OTHER_ROAD.match(name)):
-            findings.append(f"{path}: the solver may not see another engine ({via})")
+        if path.startswith("nocsolver/") and (ENGINE_HEADER.search(name) or ENGINE_FOLDER.match(name)):
+            findings.append(f"{path}: the solver may not see an engine ({via})")
         if path.startswith("nocsolver/") and name.startswith("model/legs/"):
             findings.append(f"{path}: the solver may not see the engines' geometry ({via})")
-        if OTHER_ROAD.match(path) and name.startswith("nocsolver/"):
-            findings.append(f"{path}: a engine may not see the solver ({via})")
-        if OTHER_ROAD.match(path) and OTHER_ROAD.match(name) and OTHER_ROAD.match(path)[1] != OTHER_ROAD.match(name)[1]:
-            findings.append(f"{path}: a engine may not see another ({via})")
+        if ENGINE_FOLDER.match(path) and name.startswith("nocsolver/"):
+            findings.append(f"{path}: an engine may not see the solver ({via})")
+        if ENGINE_FOLDER.match(path) and ENGINE_FOLDER.match(name) and ENGINE_FOLDER.match(path)[1] != ENGINE_FOLDER.match(name)[1]:
+            findings.append(f"{path}: an engine may not see another ({via})")
     return findings
 
 
@@ -113,6 +115,21 @@ def check_no_simtk(path, text):
             for number, line in enumerate(code.splitlines(), 1) if "SimTK" in line] + [
             f"{path}:{line}: {name} in a header that others include (only *_internal headers may)"
             for line, name, quoted in sources.includes(text) if not quoted and ENGINE_HEADER.search(name)]
+
+
+def check_type_names(root):
+    """Two types of one name in one namespace would be one type to the linker."""
+    findings, places = [], {}
+    for path in sources.files(root, ("base", "model", "nocsolver", "engines", "exchange", "validation", "report", "studies", "apps")):
+        if not sources.is_header(path):
+            continue
+        namespace = ""
+        for number, line in enumerate(sources.code_only(sources.read(root, path)).splitlines(), 1):
+            opened, named = NAMESPACE.match(line), TYPE.match(line)
+            namespace = opened[1] if opened else namespace
+            if named and places.setdefault((namespace, named[1]), path) != path:
+                findings.append(f"{path}:{number}: {namespace}::{named[1]} is in {places[namespace, named[1]]}, too")
+    return findings
 
 
 def check_targets(root):
@@ -257,7 +274,7 @@ def main(arguments):
         for equation in EQUATIONS:
             print(f"({equation})", ", ".join(f"{p}:{n}" for p, n in tags.get(equation, {}).items()) or "—")
     else:
-        findings = (check_includes(root) + check_targets(root) + components.check_components(root) + check_equations(root)
+        findings = (check_includes(root) + check_type_names(root) + check_targets(root) + components.check_components(root) + check_equations(root)
                     + named_paths.check_paths(root) + named_paths.check_subfolders(root))
     print(*findings, sep="\n", end="\n" if findings else "", file=sys.stderr)
     if not findings and not only_tags:

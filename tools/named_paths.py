@@ -10,7 +10,7 @@ FOLDERS = (*sources.FOLDERS, "cmake", "docs", "results", "scenarios", "sweeps", 
 SOURCES = (*sources.SUFFIXES, ".py", ".cmake")
 # A path of this tree begins with one of its folders or ends like a source file. Users write folders in a results/ of their own.
 PATH = re.compile(r"[\w*.-]+(?:/[\w*.-]+)*/?")
-OURS = re.compile(rf"(?:{'|'.join(f for f in FOLDERS if f != 'results')})/|[\w*./-]+\.(?:h|inl|cpp|py|cmake|mjs)$")
+OURS = re.compile(rf"(?:{'|'.join(f for f in FOLDERS if f != 'results')})/|[\w*./-]+\.(?:h|inl|cpp|py|cmake|mjs|md)$")
 OTHERS = {"mujoco/mujoco.h", "mujoco.h", "Simbody.h", "mine.py", "path/file.h", "path/other.cpp"}  # of libraries, of users, of nobody
 _COMMENT = {".py": re.compile(r'#[^\n]*|""".*?"""', re.S), ".cmake": re.compile(r"#[^\n]*")}
 _CPP_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.S)

@@ -71,7 +71,8 @@ class CheckStructure(unittest.TestCase):
             for path, text in tree.items():
                 (root / path).parent.mkdir(parents=True, exist_ok=True)
                 (root / path).write_text(text, encoding="utf-8")
-            return (check_structure.check_includes(root) + check_structure.check_targets(root) + components.check_components(root)
+            return (check_structure.check_includes(root) + check_structure.check_type_names(root)
+                    + check_structure.check_targets(root) + components.check_components(root)
                     + check_structure.check_equations(root) + named_paths.check_paths(root) + named_paths.check_subfolders(root))
 
     def assert_caught(self, expected, **changes):
@@ -83,14 +84,14 @@ class CheckStructure(unittest.TestCase):
 
     def test_include_rules(self):
         append = lambda text: ("", text)  # noqa: E731
-        self.assert_caught("the solver may not see another engine", nocsolver__leg_DOT_cpp=append("#include <Simbody.h>\n"))
-        self.assert_caught("the solver may not see another engine", nocsolver__leg_DOT_cpp=append('#include "engines/simbody/simbody_loop.h"\n'))
+        self.assert_caught("the solver may not see an engine", nocsolver__leg_DOT_cpp=append("#include <Simbody.h>\n"))
+        self.assert_caught("the solver may not see an engine", nocsolver__leg_DOT_cpp=append('#include "engines/simbody/simbody_loop.h"\n'))
         self.assert_caught("leg.h -> model/machine.h -> engines/simbody/simbody_loop.h",
                            model__machine_DOT_h=append('#include "engines/simbody/simbody_loop.h"\n'))
         self.assert_caught("the solver may not see the engines' geometry", nocsolver__leg_DOT_cpp=append('#include "model/legs/leg.h"\n'))
         self.assert_caught("may not see the solver", engines__simbody__simbody_loop_DOT_cpp=append('#include "nocsolver/leg.h"\n'))
-        self.assert_caught("the solver may not see another engine", nocsolver__leg_DOT_cpp=append("#include <mujoco/mujoco.h>\n"))
-        self.assert_caught("a engine may not see another",
+        self.assert_caught("the solver may not see an engine", nocsolver__leg_DOT_cpp=append("#include <mujoco/mujoco.h>\n"))
+        self.assert_caught("an engine may not see another",
                            engines__mujoco__mujoco_loop_DOT_cpp=append('#include "engines/simbody/simbody_loop.h"\n'))
         self.assert_caught("nocsolver/noc may not include nocsolver/fast", nocsolver__fast__k_DOT_h=("", "#pragma once\n"),
                            nocsolver__noc__n_DOT_h=("", '#include "nocsolver/fast/k.h"\n'))
@@ -112,6 +113,12 @@ class CheckStructure(unittest.TestCase):
                            examples__loop_DOT_cpp=("", "#include <pybind11/numpy.h>\n"))
         self.assert_caught("python/ may not include nocsolver/", python__module_DOT_cpp=("", '#include "nocsolver/leg.h"\n'))
         self.assert_caught("model/ may not include include/", model__machine_DOT_h=("", '#include "include/ursula/solver.h"\n'))
+
+    def test_type_names(self):
+        of = "namespace ursula {\nstruct State {\n};\n}\n"
+        self.assert_caught("ursula::State is in engines/a.h, too", engines__a_DOT_h=("", of), nocsolver__a_DOT_h=("", of))
+        elsewhere = of.replace("ursula", "ursula::direct")
+        self.assertEqual(self.findings(engines__a_DOT_h=("", of), nocsolver__a_DOT_h=("", elsewhere)), [])
 
     def test_simtk_in_headers(self):
         self.assert_caught("SimTK in a header", engines__simbody__simbody_loop_DOT_h=("", "const SimTK::State& s();\n"))

@@ -26,7 +26,7 @@ class BulletCalls : public LoopEngine {
     machine_.set(motion, bias == Bias::kept);
     machine_.readMaps(tree_);
     for (int i = 0; i < manipulator().legCount(); ++i) {
-      const LegState& state = machine_.leg(i);
+      const LegMotion& state = machine_.leg(i);
       const Leg& leg = manipulator().leg(i);
       Vector3d& force = tree_.legs[static_cast<std::size_t>(i)].force;
       force = machine_.forces(i, state.accelerations) - frictionOn(leg, state.rates);
@@ -74,7 +74,7 @@ class BulletCalls : public LoopEngine {
     machine_.addFrictionAndLoad(load_.get(), motion.t);
     const Motors& motors = manipulator().motors();
     for (const Motor& motor : motors) {
-      const LegState& state = machine_.leg(motor.leg);
+      const LegMotion& state = machine_.leg(motor.leg);
       machine_.world->drive(motor.leg, motor.joint, state.rates(motor.joint) + h * state.accelerations(motor.joint));
     }
     machine_.step(h);

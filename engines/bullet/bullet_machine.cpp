@@ -81,7 +81,7 @@ void BulletMachine::place(btMultiBody& body) {
 
 void BulletMachine::set(const Motion<double>& motion, bool with_bias) {
   for (int i = 0; i < manipulator.legCount(); ++i) {
-    LegState& state = states_[at(i)] = legState(chains_[at(i)], manipulator.leg(i), i, motion, with_bias);
+    LegMotion& state = states_[at(i)] = legState(chains_[at(i)], manipulator.leg(i), i, motion, with_bias);
     for (int j = 0; j < 3; ++j) {
       body(i).setJointPos(j, state.q(j));
       body(i).setJointVel(j, state.rates(j));

@@ -44,7 +44,7 @@ class BulletMachine : public EngineMachine {
   void addWrench(const Vector6d& moment_and_force) override;
   void step(double h) override;
 
-  const LegState& leg(int i) const { return states_[static_cast<std::size_t>(i)]; }
+  const LegMotion& leg(int i) const { return states_[static_cast<std::size_t>(i)]; }
   btMultiBody& body(int leg) { return *legs_[static_cast<std::size_t>(leg)]; }
   btMultiBody& platform() { return *platform_; }
   btVector3 tip(int leg) const;            ///< in the frame of the leg's last link
@@ -70,7 +70,7 @@ class BulletMachine : public EngineMachine {
   std::vector<LegChain> chains_;
   std::vector<std::array<Matrix3d, 2>> axes_;  ///< principal axes of the links
   Principal of_platform_;
-  std::vector<LegState> states_;
+  std::vector<LegMotion> states_;
   btAlignedObjectArray<btScalar> scratch_r_;
   btAlignedObjectArray<btVector3> scratch_v_;
   btAlignedObjectArray<btMatrix3x3> scratch_m_;

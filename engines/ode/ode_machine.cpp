@@ -190,7 +190,7 @@ void OdeMachine::addEffort(int leg, int j, double effort) {
 
 /// ODE's feedback is the joint's whole force on the child, and its moment about the child's mass centre.
 double OdeMachine::effort(int leg, int j) const {
-  const LegState& state = states_[at(leg)];  // where the step began; ODE has moved since
+  const LegMotion& state = states_[at(leg)];  // where the step began; ODE has moved since
   const std::size_t b = at(chains_[at(leg)].linkOf(j));
   const dJointFeedback& felt = feedback_[at(leg)][b];
   const Vector3d force = vectorOf(felt.f1), moment = vectorOf(felt.t1);

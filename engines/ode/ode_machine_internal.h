@@ -36,7 +36,7 @@ class OdeMachine : public EngineMachine {
   /// Returns the effort of the coordinate's motor in the last step.
   double effort(int leg, int j) const;
 
-  const LegState& leg(int i) const { return states_[static_cast<std::size_t>(i)]; }
+  const LegMotion& leg(int i) const { return states_[static_cast<std::size_t>(i)]; }
   double coordinate(int leg, int j) const override;  ///< counted from the pose at which the machine was built
   double rate(int leg, int j) const override;
   ChainBody platformBody() const override;
@@ -79,7 +79,7 @@ class OdeMachine : public EngineMachine {
   std::vector<std::array<dJointID, 2>> joints_;
   std::vector<std::array<dJointFeedback, 2>> feedback_;
   std::vector<LegChain> chains_;
-  std::vector<LegState> states_;
+  std::vector<LegMotion> states_;
   ChainBody platform_state_;
 };
 

@@ -8,7 +8,7 @@ namespace ursula {
 namespace {
 
 /// Draws a mass centre. At most one leg has it exactly at an end, so that no two legs share a number.
-double massCentre(Dice& dice, const Recipe& recipe, bool may_be_at_end, double length) {
+double massCentre(Dice& dice, const RandomRecipe& recipe, bool may_be_at_end, double length) {
   if (!recipe.centres_anywhere) return dice.uniform(0.2, 0.8) * length;
   if (may_be_at_end) return dice.chance(0.5) ? 0 : length;
   if (dice.chance(0.3)) {
@@ -46,7 +46,7 @@ JointFriction randomFriction(Dice& dice, LegKind kind, double largest, double le
 }
 
 /// Draws viscous and Coulomb friction of at most a share of the weight that the leg carries.
-void drawFriction(Dice& dice, const Recipe& recipe, double torque, Leg& leg) {
+void drawFriction(Dice& dice, const RandomRecipe& recipe, double torque, Leg& leg) {
   const double time = recipe.time(), length = recipe.length;
   if (recipe.viscous) {
     const double largest = dice.spread(0.01, 0.5) * torque * time;
@@ -65,7 +65,7 @@ struct MassScales {
   double platform, links, within;
 };
 
-MassScales massScales(Dice& dice, const Recipe& recipe) {
+MassScales massScales(Dice& dice, const RandomRecipe& recipe) {
   MassScales scales{recipe.mass * dice.spread(1, 50), recipe.mass, 2};
   if (recipe.masses == Masses::apart) {
     scales.platform = recipe.mass * dice.spread(1e-3, 1e3);
@@ -75,7 +75,7 @@ MassScales massScales(Dice& dice, const Recipe& recipe) {
   return scales;
 }
 
-Link randomLink(Dice& dice, const Recipe& recipe, const MassScales& scales, bool may_be_at_end, Link link) {
+Link randomLink(Dice& dice, const RandomRecipe& recipe, const MassScales& scales, bool may_be_at_end, Link link) {
   link.mass = scales.links * dice.spread(1 / scales.within, scales.within);
   link.center_of_mass = massCentre(dice, recipe, may_be_at_end, link.length);
   link.inertia = randomInertia(dice, recipe.inertias, link.mass, link.length);
@@ -84,7 +84,7 @@ Link randomLink(Dice& dice, const Recipe& recipe, const MassScales& scales, bool
 
 }  // namespace
 
-void drawBodies(Dice& dice, const Recipe& recipe, const Vector3d& middle, ManipulatorParameters& machine) {
+void drawBodies(Dice& dice, const RandomRecipe& recipe, const Vector3d& middle, ManipulatorParameters& machine) {
   const MassScales scales = massScales(dice, recipe);
   Platform& platform = machine.platform;
   platform.mass = scales.platform;
@@ -118,7 +118,7 @@ Wrench<double> randomWrench(Dice& dice, double force, double length) {
 }
 
 /// Rows that may start before the motion and end after it.
-std::vector<TimedWrench> smoothRows(Dice& dice, const Recipe& recipe, double force) {
+std::vector<TimedWrench> smoothRows(Dice& dice, const RandomRecipe& recipe, double force) {
   const int count = dice.whole(2, 7);
   std::vector<TimedWrench> rows;
   double time = dice.uniform(-0.2, 0.2) * recipe.duration;
@@ -130,7 +130,7 @@ std::vector<TimedWrench> smoothRows(Dice& dice, const Recipe& recipe, double for
 }
 
 /// Steps, each between two rows some thousandths of the machine's time apart: a millisecond for a machine of a metre.
-std::vector<TimedWrench> jumpingRows(Dice& dice, const Recipe& recipe, double force) {
+std::vector<TimedWrench> jumpingRows(Dice& dice, const RandomRecipe& recipe, double force) {
   const int count = dice.whole(1, 3);
   std::vector<TimedWrench> rows;
   Wrench<double> wrench = randomWrench(dice, force, recipe.length);
@@ -146,7 +146,7 @@ std::vector<TimedWrench> jumpingRows(Dice& dice, const Recipe& recipe, double fo
 
 }  // namespace
 
-std::shared_ptr<const Load> randomLoad(Dice& dice, const Recipe& recipe, const Design& design) {
+std::shared_ptr<const Load> randomLoad(Dice& dice, const RandomRecipe& recipe, const Design& design) {
   if (recipe.load == LoadKind::none) return nullptr;
   auto load = std::make_shared<Load>();
   const double force = dice.spread(0.01, 2) * totalMass(design.machine) * recipe.acceleration;

@@ -66,7 +66,7 @@ Vector3d randomAxis(Dice& dice, Axes axes, double angle, double side) {
   return dice.direction();
 }
 
-void placeLeg(Dice& dice, const Recipe& recipe, const Rings& rings, int i, Leg& leg) {
+void placeLeg(Dice& dice, const RandomRecipe& recipe, const Rings& rings, int i, Leg& leg) {
   const int slot = i * leg_count / static_cast<int>(recipe.legs.size());  // fewer legs leave some empty
   const double side = slot % 2 == 0 ? -1 : 1;
   const int pair = slot / 2;
@@ -142,7 +142,7 @@ void nearStrokeEnd(Dice& dice, Leg& leg) {
 }
 
 /// Draws the links of placed legs.
-void drawLinks(Dice& dice, const Recipe& recipe, std::vector<Leg>& legs) {
+void drawLinks(Dice& dice, const RandomRecipe& recipe, std::vector<Leg>& legs) {
   const double unequal = recipe.unequal_links ? 5 : 1.5;
   const int count = static_cast<int>(legs.size());
   for (Leg& leg : legs) {
@@ -163,7 +163,7 @@ void drawLinks(Dice& dice, const Recipe& recipe, std::vector<Leg>& legs) {
 /// loops. The triangle A R B of URS, or of RUS in the view along the axis, has a knee angle of 20° to 160°. The rod of
 /// PUS is at 20° to 70° to its rail; UPS is within the middle 70 % of its stroke. One or two legs exceed this on
 /// machines near a singularity or near a stroke's end.
-std::vector<Leg> randomLayout(Dice& dice, const Recipe& recipe) {
+std::vector<Leg> randomLayout(Dice& dice, const RandomRecipe& recipe) {
   const Rings rings = randomRings(dice, recipe.arrangement);
   std::vector<Leg> legs = recipe.legs;
   const int count = static_cast<int>(legs.size());
@@ -175,7 +175,7 @@ std::vector<Leg> randomLayout(Dice& dice, const Recipe& recipe) {
 
 /// A helix with its middle at `position`; the platform takes the triad there. About a distant origin it hardly turns
 /// while it covers a share of the machine.
-void drawHelix(Dice& dice, const Recipe& recipe, Design& design) {
+void drawHelix(Dice& dice, const RandomRecipe& recipe, Design& design) {
   HelixParameters& helix = design.helix;
   const Vector3d& p = design.position;
   const double way = dice.uniform(0.05, 0.25) * recipe.length;
@@ -210,7 +210,7 @@ Eigen::Quaterniond helixTriad(const HelixParameters& helix) {
 }
 
 /// Places a layout randomly in B, and M randomly on the platform.
-void placeLegs(Dice& dice, const Recipe& recipe, std::vector<Leg> legs, Design& design) {
+void placeLegs(Dice& dice, const RandomRecipe& recipe, std::vector<Leg> legs, Design& design) {
   const Eigen::Quaterniond turn = dice.turn(recipe.turned ? pi : 0.1);
   const Vector3d origin = recipe.offset * dice.direction();
   const auto inBase = [&](const Vector3d& v) { return Vector3d(origin + turn * (recipe.length * v)); };
@@ -255,7 +255,7 @@ Vector3d gravityDirection(Dice& dice, GravityKind kind) {
 
 }  // namespace
 
-Design randomDesign(Dice& dice, const Recipe& recipe) {
+Design randomDesign(Dice& dice, const RandomRecipe& recipe) {
   Design design;
   placeLegs(dice, recipe, randomLayout(dice, recipe), design);
   design.machine.gravity = recipe.acceleration * gravityDirection(dice, recipe.gravity);  // exactly zero for none

@@ -13,7 +13,7 @@ using Shift = Eigen::Matrix<double, 6, 1>;  ///< of the platform's middle in len
 
 /// Moves the design's pose by the platform's middle instead of P, so that rotations about a distant P do not move the
 /// platform away.
-TimedPose poseAt(const Recipe& recipe, const Design& design, double time, const Shift& shift) {
+TimedPose poseAt(const RandomRecipe& recipe, const Design& design, double time, const Shift& shift) {
   const Vector3d middle = design.position + design.orientation * design.middle + recipe.length * shift.head<3>();
   const double angle = shift.tail<3>().norm();
   const Vector3d axis = angle > 0 ? Vector3d(shift.tail<3>() / angle) : Vector3d(Vector3d::UnitX());
@@ -50,7 +50,8 @@ std::shared_ptr<const Trajectory> helixMotion(const Design& design, double share
   return makeHelix(helix);
 }
 
-std::shared_ptr<const Trajectory> holdMotion(Dice& dice, const Recipe& recipe, const Design& design, double share) {
+std::shared_ptr<const Trajectory> holdMotion(Dice& dice, const RandomRecipe& recipe, const Design& design,
+                                             double share) {
   const TimedPose pose = poseAt(recipe, design, 0, randomReach(dice, share).draw(dice));
   return makeHold(pose.position, pose.orientation, recipe.duration);
 }
@@ -66,7 +67,8 @@ std::vector<double> randomTimes(Dice& dice, double duration, int count, double u
 
 /// Returns waypoints of one of three sorts: a few at nearly even times; many, each near its predecessor; or some
 /// intervals of a twentieth of the others.
-std::shared_ptr<const Trajectory> waypointMotion(Dice& dice, const Recipe& recipe, const Design& design, double share) {
+std::shared_ptr<const Trajectory> waypointMotion(Dice& dice, const RandomRecipe& recipe, const Design& design,
+                                                 double share) {
   const bool tight = recipe.pace == Pace::tight, abrupt = recipe.pace == Pace::abrupt;
   const int count = tight ? dice.whole(8, 24) : dice.whole(2, 5) + (abrupt ? 1 : 0);
   const Reach reach = randomReach(dice, share);
@@ -105,13 +107,14 @@ class Waves {
 
 /// Returns the size of noise in lengths. Noise of ε lengths at intervals h causes accelerations of ε / h², which are
 /// limited to a few times the machine's unit.
-double noiseOf(Dice& dice, const Recipe& recipe, double share, int count) {
+double noiseOf(Dice& dice, const RandomRecipe& recipe, double share, int count) {
   if (!recipe.noisy) return 0;
   const double h = recipe.duration / recipe.time() / (count - 1);
   return share * std::min(dice.spread(0.003, 1) * h * h, 0.01);
 }
 
-std::shared_ptr<const Trajectory> sampleMotion(Dice& dice, const Recipe& recipe, const Design& design, double share) {
+std::shared_ptr<const Trajectory> sampleMotion(Dice& dice, const RandomRecipe& recipe, const Design& design,
+                                               double share) {
   const int count = recipe.pace == Pace::tight ? dice.whole(40, 120) : dice.whole(7, 40);
   // The waves have at least six samples per turn, and no more turns than natural times.
   const double most = std::min(1 + recipe.duration / recipe.time(), count / 6.0);
@@ -128,7 +131,8 @@ std::shared_ptr<const Trajectory> sampleMotion(Dice& dice, const Recipe& recipe,
 
 }  // namespace
 
-std::shared_ptr<const Trajectory> randomMotion(Dice& dice, const Recipe& recipe, const Design& design, double share) {
+std::shared_ptr<const Trajectory> randomMotion(Dice& dice, const RandomRecipe& recipe, const Design& design,
+                                               double share) {
   switch (recipe.motion) {
     case MotionKind::helix:
       return helixMotion(design, share);

@@ -19,17 +19,18 @@ struct Design {
   HelixParameters helix;               ///< a helix with the pose at its middle, if the motion is a helix
 };
 
-Design randomDesign(Dice& dice, const Recipe& recipe);
+Design randomDesign(Dice& dice, const RandomRecipe& recipe);
 
 /// Draws masses, mass centres, inertias and friction for the machine's points and lengths. Friction is a share of m a
 /// L, the torque of the weight on a leg.
-void drawBodies(Dice& dice, const Recipe& recipe, const Vector3d& middle, ManipulatorParameters& machine);
+void drawBodies(Dice& dice, const RandomRecipe& recipe, const Vector3d& middle, ManipulatorParameters& machine);
 
 /// A motion of the recipe's kind about the design's pose. `share` makes it smaller if the legs cannot follow. Throws
 /// InvalidParameter if the spline between the poses overshoots too far.
-std::shared_ptr<const Trajectory> randomMotion(Dice& dice, const Recipe& recipe, const Design& design, double share);
+std::shared_ptr<const Trajectory> randomMotion(Dice& dice, const RandomRecipe& recipe, const Design& design,
+                                               double share);
 
 /// Returns null if the recipe has no load.
-std::shared_ptr<const Load> randomLoad(Dice& dice, const Recipe& recipe, const Design& design);
+std::shared_ptr<const Load> randomLoad(Dice& dice, const RandomRecipe& recipe, const Design& design);
 
 }  // namespace ursula

@@ -81,7 +81,7 @@ std::string wordsOf(const std::vector<Leg>& legs) {
 /// Draws whether an unusual property occurs, and notes it.
 class Oddities {
  public:
-  Oddities(Dice& dice, Recipe& recipe) : dice_(dice), recipe_(recipe) {}
+  Oddities(Dice& dice, RandomRecipe& recipe) : dice_(dice), recipe_(recipe) {}
   bool happens(double probability, const char* words) {
     const bool odd = dice_.chance(probability);
     if (odd) recipe_.unusual.emplace_back(words);
@@ -90,11 +90,11 @@ class Oddities {
 
  private:
   Dice& dice_;
-  Recipe& recipe_;
+  RandomRecipe& recipe_;
 };
 
 /// Masses grow with the volume as for the paper's machine, 10 kg at 1.4 m, or are independent of it.
-void drawUnits(Dice& dice, Oddities& odd, Recipe& recipe) {
+void drawUnits(Dice& dice, Oddities& odd, RandomRecipe& recipe) {
   recipe.length = dice.spread(0.4, 4);
   if (odd.happens(0.2, "size")) recipe.length = dice.spread(2e-3, 300);
   const double volume = std::pow(recipe.length, 3);
@@ -103,7 +103,7 @@ void drawUnits(Dice& dice, Oddities& odd, Recipe& recipe) {
   if (odd.happens(0.15, "gravity's size")) recipe.acceleration = dice.spread(1.6, 274);
 }
 
-void drawGeometry(Dice& dice, Oddities& odd, Recipe& recipe) {
+void drawGeometry(Dice& dice, Oddities& odd, RandomRecipe& recipe) {
   if (dice.chance(0.6)) {
     recipe.arrangement = dice.pick<Arrangement>(5);
     recipe.axes = dice.pick<Axes>(4);
@@ -120,7 +120,7 @@ void drawGeometry(Dice& dice, Oddities& odd, Recipe& recipe) {
 }
 
 /// Properties that only other kinds of legs than URS can have.
-void drawLegs(Dice& dice, Oddities& odd, Recipe& recipe) {
+void drawLegs(Dice& dice, Oddities& odd, RandomRecipe& recipe) {
   const RandomKind kind = recipe.kind;
   const bool of_any = kind == RandomKind::mixture || kind == RandomKind::two_motors;
   const bool other_motors = kind != RandomKind::URS && odd.happens(of_any ? 0.4 : 0.15, "other motors");
@@ -133,7 +133,7 @@ void drawLegs(Dice& dice, Oddities& odd, Recipe& recipe) {
   recipe.far_zero = some(&LegKindRow::hasCarriage) && odd.happens(0.15, "carriage far from its zero");
 }
 
-void drawBodies(Dice& dice, Oddities& odd, Recipe& recipe) {
+void drawBodies(Dice& dice, Oddities& odd, RandomRecipe& recipe) {
   if (odd.happens(0.15, "links' masses unlike the platform's")) recipe.masses = Masses::apart;
   if (odd.happens(0.1, "masses mixed")) recipe.masses = Masses::mixed;
   recipe.centres_anywhere = odd.happens(0.15, "mass centres outside of links");
@@ -144,7 +144,7 @@ void drawBodies(Dice& dice, Oddities& odd, Recipe& recipe) {
   recipe.coulomb = dice.chance(0.25);
 }
 
-void drawSurroundings(Dice& dice, Oddities& odd, Recipe& recipe) {
+void drawSurroundings(Dice& dice, Oddities& odd, RandomRecipe& recipe) {
   if (odd.happens(0.15, "gravity's direction")) recipe.gravity = dice.pick<GravityKind>(4);
   if (dice.chance(0.2)) recipe.load = LoadKind::constant;
   if (dice.chance(0.15)) recipe.load = LoadKind::table;
@@ -152,7 +152,7 @@ void drawSurroundings(Dice& dice, Oddities& odd, Recipe& recipe) {
   recipe.load_far = recipe.load != LoadKind::none && odd.happens(0.2, "load far off");
 }
 
-void drawMotion(Dice& dice, Oddities& odd, Recipe& recipe) {
+void drawMotion(Dice& dice, Oddities& odd, RandomRecipe& recipe) {
   const double kind = dice.uniform(0, 1);
   recipe.motion = kind < 0.3    ? MotionKind::helix
                   : kind < 0.42 ? MotionKind::hold
@@ -171,7 +171,7 @@ void drawMotion(Dice& dice, Oddities& odd, Recipe& recipe) {
 
 }  // namespace
 
-std::string Recipe::text() const {
+std::string RandomRecipe::text() const {
   static constexpr const char* arrangements[] = {"the paper's layout", "a ring", "3-3", "6-3", "no order"};
   static constexpr const char* directions[] = {"tilted", "radial", "tangential", "random"};
   const std::string odd = unusual.empty() ? "nothing unusual" : fmt::format("{}", fmt::join(unusual, ", "));
@@ -181,13 +181,13 @@ std::string Recipe::text() const {
                                  directions[static_cast<int>(axes)], odd);
 }
 
-double Recipe::largestKappa() const {
+double RandomRecipe::largestKappa() const {
   // P far from the platform's points increases the condition of B by as many lengths.
   return near_singular || platform_offset > length ? 1e6 : 1e4;
 }
 
-Recipe randomRecipe(Dice& dice, RandomKind kind) {
-  Recipe recipe;
+RandomRecipe randomRecipe(Dice& dice, RandomKind kind) {
+  RandomRecipe recipe;
   recipe.kind = kind;
   Oddities odd(dice, recipe);
   drawUnits(dice, odd, recipe);

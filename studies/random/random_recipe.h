@@ -30,7 +30,7 @@ enum class LoadKind { none, constant, table, jumps };
 
 /// The properties of a random scenario. They are drawn before its numbers, so properties that are hard to satisfy are
 /// not drawn less often.
-struct Recipe {
+struct RandomRecipe {
   // units of the machine
   double length = 1;        ///< m
   double mass = 1;          ///< kg
@@ -73,6 +73,6 @@ struct Recipe {
   double largestKappa() const;
 };
 
-Recipe randomRecipe(Dice& dice, RandomKind kind);
+RandomRecipe randomRecipe(Dice& dice, RandomKind kind);
 
 }  // namespace ursula

@@ -59,7 +59,7 @@ class Follower {
 double kappaOf(const Conditioning& c) { return c.kappa_B * c.kappa_legs; }
 
 /// Whether the machine can take the middle pose with some margin for motion.
-bool canStand(const Recipe& recipe, const Design& design, const Manipulator& manipulator) {
+bool canStand(const RandomRecipe& recipe, const Design& design, const Manipulator& manipulator) {
   Motion<double> motion;
   motion.p = design.position;
   motion.Q = design.orientation.toRotationMatrix();
@@ -71,7 +71,7 @@ bool canStand(const Recipe& recipe, const Design& design, const Manipulator& man
 }
 
 /// Whether every leg follows the whole motion, as far from singularities as the recipe requires.
-bool canBeJudged(const Recipe& recipe, const Scenario& scenario) {
+bool canBeJudged(const RandomRecipe& recipe, const Scenario& scenario) {
   const std::vector<double> instants = instantsOf(*scenario.trajectory);
   Follower follower(*scenario.manipulator);
   for (const double t : instants)
@@ -89,7 +89,7 @@ bool canBeJudged(const Recipe& recipe, const Scenario& scenario) {
 
 /// Tries smaller and smaller motions until the legs follow. Near a singularity it starts with larger ones and takes
 /// smaller steps, so the first success comes close to it.
-bool findMotion(Dice& dice, const Recipe& recipe, const Design& design, int& draws, Scenario& scenario) {
+bool findMotion(Dice& dice, const RandomRecipe& recipe, const Design& design, int& draws, Scenario& scenario) {
   const double factor = recipe.near_singular ? 0.75 : 0.6;
   double share = recipe.near_singular ? 1.5 : 1;
   for (int k = 0; k < (recipe.near_singular ? 10 : 5); ++k, share *= factor) try {
@@ -102,7 +102,7 @@ bool findMotion(Dice& dice, const Recipe& recipe, const Design& design, int& dra
   return false;
 }
 
-bool tryDesign(Dice& dice, const Recipe& recipe, int& draws, Scenario& scenario) {
+bool tryDesign(Dice& dice, const RandomRecipe& recipe, int& draws, Scenario& scenario) {
   ++draws;
   try {
     const Design design = randomDesign(dice, recipe);
@@ -143,7 +143,7 @@ Scenario randomScenario(std::uint64_t seed, RandomKind kind) {
   Dice dice(seed);
   int draws = 0;
   for (int attempt = 0; attempt < 200; ++attempt) {
-    const Recipe recipe = randomRecipe(dice, kind);
+    const RandomRecipe recipe = randomRecipe(dice, kind);
     Scenario scenario;
     scenario.name = nameFor(seed, kind);
     scenario.file = scenario.name;

@@ -138,7 +138,7 @@ std::vector<double> ranksOf(const std::vector<double>& values) {
   return out;
 }
 
-Relation relationOf(const Parameter& parameter, const std::vector<double>& y, const std::vector<double>& y_ranks,
+Relation relationOf(const SweptValues& parameter, const std::vector<double>& y, const std::vector<double>& y_ranks,
                     Classes classes, bool wants_index) {
   std::vector<double> x_kept, y_kept, ranks_kept;
   for (const std::uint32_t row : parameter.order) {

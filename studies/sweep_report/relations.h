@@ -49,7 +49,7 @@ struct Relation {
 };
 
 /// A parameter with its data for all outputs.
-struct Parameter {
+struct SweptValues {
   std::vector<double> x;
   std::vector<std::uint32_t> order;  ///< orderOf(x)
 };
@@ -60,7 +60,7 @@ struct Parameter {
 /// subtracted (the ε² of Kelley, Proc. Natl. Acad. Sci. 21 (1935) 554–559): (S_between − (M − 1) s²_within) / S_total,
 /// which may be negative. Levels of a complete grid and strata of Sobol's points need no correction, because they lack
 /// the scatter of independent points.
-Relation relationOf(const Parameter& parameter, const std::vector<double>& y, const std::vector<double>& y_ranks,
+Relation relationOf(const SweptValues& parameter, const std::vector<double>& y, const std::vector<double>& y_ranks,
                     Classes classes, bool wants_index);
 
 /// The value that |correlation| of `count` rows of unrelated numbers exceeds with probability `alpha` (Student's t); 1

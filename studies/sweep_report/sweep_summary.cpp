@@ -147,7 +147,7 @@ class Summary {
                             : out_.identity.design == "sobol" ? Classes::strata
                                                               : Classes::quantiles;
     for (std::size_t p = 0; p < keys_.size(); ++p) {
-      Parameter parameter;
+      SweptValues parameter;
       parameter.x = store_.column(p);
       parameter.order = orderOf(parameter.x);
       for (std::size_t k = 0; k < out_.outputs.size(); ++k)
@@ -155,7 +155,7 @@ class Summary {
     }
   }
 
-  Relation related(const Parameter& parameter, std::size_t k, Classes classes) {
+  Relation related(const SweptValues& parameter, std::size_t k, Classes classes) {
     const SweepOutput& output = out_.outputs[k];
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     if (output.spread.constant) return {none, none, none, 0, output.spread.count, false, false};
