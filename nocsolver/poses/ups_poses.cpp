@@ -87,6 +87,9 @@ ups::Roots allRoots(const ups::Legs& legs) {
   return tracked.all() > ring.all() ? tracked : ring;
 }
 
+/// Whether a leg of the kind keeps its platform point on a sphere while its motor holds.
+bool holdsSphere(LegKind kind) { return kind == LegKind::UPS || kind == LegKind::RUS || kind == LegKind::PUS; }
+
 /// The sphere of a leg's platform point while its motor holds, and the fixed frame of (2a).
 struct Sphere {
   Vector3d centre, x_hat, u, z_hat;
@@ -136,7 +139,7 @@ UpsPoses upsPoses(const Points& base_points, const Points& platform_points, cons
 bool tipsAreOnSpheres(const Manipulator& machine) {
   const std::vector<Leg>& legs = machine.parameters().legs;
   return legs.size() == leg_count && std::all_of(legs.begin(), legs.end(), [](const Leg& leg) {
-           return leg.kind != LegKind::URS && std::count(leg.actuated.begin(), leg.actuated.end(), true) == 1 &&
+           return holdsSphere(leg.kind) && std::count(leg.actuated.begin(), leg.actuated.end(), true) == 1 &&
                   leg.actuated[rowOf(leg.kind).actuated];
          });
 }

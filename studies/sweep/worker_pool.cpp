@@ -72,12 +72,24 @@ struct Worker {
   std::string arrived;           ///< bytes of incomplete points
 };
 
+/// Makes a write to a process that has ended an error instead of a signal, until destroyed.
+class BrokenPipesIgnored {
+ public:
+  BrokenPipesIgnored() : former_(std::signal(SIGPIPE, SIG_IGN)) {}
+  ~BrokenPipesIgnored() { std::signal(SIGPIPE, former_); }
+  BrokenPipesIgnored(const BrokenPipesIgnored&) = delete;
+  BrokenPipesIgnored& operator=(const BrokenPipesIgnored&) = delete;
+
+ private:
+  void (*former_)(int);
+};
+
 class WorkerPool {
  public:
   WorkerPool(int workers, const WorkerTasks& tasks) : tasks_(tasks), workers_(static_cast<std::size_t>(workers)) {}
 
   bool run() {
-    const auto former = std::signal(SIGPIPE, SIG_IGN);
+    const BrokenPipesIgnored ignored;
     bool stopped = false;
     for (;;) {
       bool busy = false;
@@ -85,7 +97,6 @@ class WorkerPool {
       if (!busy || (stopped = tasks_.stop())) break;
       wait();
     }
-    std::signal(SIGPIPE, former);
     for (Worker& worker : workers_) {
       if (stopped) worker.process.reset();  // killed
       if (worker.process) end(worker);
