@@ -26,14 +26,15 @@ struct SimulateOptions {
 };
 
 /// Returns why the motion is incomplete; empty if it is complete.
-std::string whatIsMissing(const Simulation& run, const TorqueFile& file, double duration) {
+std::string whatIsMissing(const Simulation& run, const TorqueFile& file, const Scenario& scenario) {
+  const double duration = scenario.trajectory->duration();
   if (!run.gave_up.empty())
     return fmt::format("stopped at t = {} s of {} s: {}", run.motions.empty() ? 0 : run.motions.back().t, file.t.back(),
                        run.gave_up);
   if (covers(file, duration)) return "";
-  return fmt::format(
-      "{}: the torques reach from t = {} s to {} s of a motion from 0 to {} s; the rest is not simulated",
-      file.file.string(), file.t.front(), file.t.back(), duration);
+  return fmt::format("{}: the {}s reach from t = {} s to {} s of a motion from 0 to {} s; the rest is not simulated",
+                     file.file.string(), effortNoun(scenario.manipulator->motors()), file.t.front(), file.t.back(),
+                     duration);
 }
 
 int simulateVerb(const SimulateOptions& options) {
@@ -45,9 +46,9 @@ int simulateVerb(const SimulateOptions& options) {
   const Simulation run = alongMotion(scenario, [&] { return simulate(scenario, options.engine, file, deadline); });
   const TimeSeries series = simulatedSeries(*scenario.manipulator, run.motions, run.torques);
   writeOutput(options.out, csvText(series.names, series.columns));
-  const std::string missing = whatIsMissing(run, file, scenario.trajectory->duration());
+  const std::string missing = whatIsMissing(run, file, scenario);
   if (missing.empty()) return exit_passed;
-  say("{}\n", inEffortWords(effortNoun(scenario.manipulator->motors()), missing));
+  say("{}\n", missing);
   return exit_failed;
 }
 

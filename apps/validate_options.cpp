@@ -52,15 +52,18 @@ std::string summaryOf(const SuiteEntry& entry, const std::filesystem::path& dir)
 }  // namespace
 
 void printResult(const ValidationResult& result, const std::filesystem::path& dir, PrintedForm form) {
+  std::string out;
   switch (form) {
     case PrintedForm::json:
-      return writeOutput("-", report::summaryJson(result));
-    case PrintedForm::verdict:
-      return writeOutput("-", report::quietText(result, coloured()));
-    case PrintedForm::table:
+      out = report::summaryJson(result);
       break;
+    case PrintedForm::verdict:
+      out = report::quietText(result, coloured());
+      break;
+    case PrintedForm::table:
+      out = report::validationText(result, coloured()) + "report: " + (dir / "report.html").string() + "\n";
   }
-  writeOutput("-", report::validationText(result, coloured()) + "report: " + (dir / "report.html").string() + "\n");
+  writeOutput("-", out);
 }
 
 void printSuite(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir, PrintedForm form) {

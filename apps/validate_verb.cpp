@@ -70,7 +70,7 @@ ValidationResult judge(const Scenario& scenario, const ValidateOptions& options)
     alongMotion(scenario, [&] { sayWork(scenario, options.time_limit, !options.solver.command.empty()); });
     progress.emplace(scenario.name);
   }
-  if (from_file) return validateExternal(scenario, torques, options.time_limit);
+  if (from_file) return validateExternal(scenario, torques, options.time_limit, nullptr, options.jobs);
   ValidationOptions validation;
   validation.time_limit = options.time_limit;
   if (progress) validation.progress = [&progress](double share, const char* now) { progress->at(share, now); };

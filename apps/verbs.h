@@ -9,7 +9,7 @@
 
 namespace ursula {
 
-/// The program's exit codes, as in interface.md.
+/// The program's exit codes, as in docs/command_line.md.
 constexpr int exit_passed = 0, exit_failed = 1, exit_bad_input = 2, exit_inconclusive = 3;
 
 /// An error of the caller; the program prints it and exits with 2.

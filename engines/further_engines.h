@@ -27,7 +27,7 @@ inline bool alwaysAvailable() { return true; }
 
 /// All further formulations. A new one needs a folder in engines/ and a row.
 inline constexpr std::array further_engines = {
-    EngineKind{"torque.twin", "Simbody, tree through leg 1", "Simbody's loop grown through leg 1, balls at the others",
+    EngineKind{"torque.twin", "Simbody, tree through leg 1", "Simbody's tree through leg 1, balls at the others",
                "Simbody", alwaysAvailable, makeSimbodyTree},
     EngineKind{"torque.maximal", "maximal coordinates",
                "links and platform in maximal coordinates with Lagrange multipliers", "maximal coordinates",

@@ -31,7 +31,8 @@ std::vector<CheckRow> checksOfInput() {
       {"kinematics.joint_angles", "rad", N::kinematics, G::kinematics, StandsOn::engine, "Joint coordinates",
        "The solver's φ, ψ, θ of (1) to (19), and d, equal those of Simbody's loop by vector geometry.",
        "an error that both would make, in the raw parameters", LimitFrom::measured,
-       "Ten times the spread of both formulations in turned, relabelled and rescaled frames.",
+       "Ten times the measured spread: of Simbody over changes of frame, of the solver over inputs changed by one "
+       "rounding.",
        "Check the zero and the sign of each angle, and which bend of the knee the solver takes."},
       {"kinematics.joint_rates", "rad/s", N::kinematics, G::kinematics, StandsOn::engine, "Joint rates",
        "The solver's joint rates are those of Simbody's own constraint Jacobian.",
@@ -79,8 +80,8 @@ std::vector<CheckRow> checksOfTorques() {
       {"torque.pointwise", "N m", N::nothing, G::motors, StandsOn::engine, "Efforts against Simbody",
        "The efforts under test equal those of Simbody's own inverse dynamics at every instant.",
        "parameters that this motion does not excite", LimitFrom::measured,
-       "Ten times the spread of both formulations' efforts over other changes of frame, shaped by the pose's "
-       "conditioning.",
+       "Ten times the measured spread of the efforts, of Simbody over changes of frame and of the solver over inputs "
+       "changed by one rounding, shaped by the pose's conditioning.",
        "Read the likely cause and the table of legs; then compare masses, inertias, gravity and signs with the "
        "scenario."},
       {"acceleration.pointwise", "m/s^2", N::nothing, G::motors, StandsOn::engine,
@@ -96,8 +97,8 @@ std::vector<CheckRow> checksOfTorques() {
        "The limit of torque.pointwise, plus half a unit of the file's last printed digit.",
        "Read the likely cause; check that the file's instants are seconds of this motion, and that its legs have this "
        "order."},
-      {"torque.twin", "N m", N::any_instant, G::motors, StandsOn::engine, "Simbody, cut elsewhere",
-       "A second Simbody model, a tree through leg 1 with the loops cut elsewhere, needs the same efforts.",
+      {"torque.twin", "N m", N::any_instant, G::motors, StandsOn::engine, "Simbody, tree through leg 1",
+       "A second Simbody model, whose tree goes through leg 1, needs the same efforts.",
        "parameters that this motion does not excite", LimitFrom::measured,
        "The twin's rounding, measured in other frames.",
        "If torque.pointwise passes, this program uses Simbody wrongly: report it with the scenario."},

@@ -5,7 +5,7 @@
 
 namespace ursula {
 
-/// The origin of a subject's formulas: the paper as printed, the users' kernels, or another program.
+/// The origin of a subject's formulas: the paper's, the users' kernels, or another program.
 enum class Formulation { noc, fast, external };
 /// "noc", "fast" or "external".
 inline const char* name(Formulation formulation) {

@@ -90,7 +90,7 @@ ValidationResult ofSolver(const Scenario& scenario, const py::object& solver, st
 /// Validates a user's numbers.
 ValidationResult ofTorques(const Scenario& scenario, const TorqueFile& torques, double limit) {
   return interruptible(limit, [&](const ValidationOptions& options) {
-    return validateExternal(scenario, torques, options.time_limit, options.asked_to_end);
+    return validateExternal(scenario, torques, options.time_limit, options.asked_to_end, options.threads);
   });
 }
 

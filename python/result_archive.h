@@ -94,9 +94,9 @@ inline void members(Archive& archive, std::shared_ptr<const Scenario>& asked) {
 
 inline void members(Archive& archive, ValidationResult& result) {
   auto& [scenario, subject, limits, verdict, checks, provenance, run, findings, replay_error, cause, causes, terms,
-         words, windows, deviation, timeseries, curves, events, asked] = result;
+         words, windows, deviation, effort, timeseries, curves, events, asked] = result;
   archive(scenario, subject, limits, verdict, checks, provenance, run, findings, replay_error, cause, causes, terms,
-          words, windows, deviation, timeseries, curves, events, asked);
+          words, windows, deviation, effort, timeseries, curves, events, asked);
 }
 
 }  // namespace ursula::python

@@ -72,7 +72,7 @@ std::vector<PageSection> parts(const ValidationResult& result, const Picture* pi
 }  // namespace
 
 std::string reportHtml(const ValidationResult& result, Place place) {
-  const auto inWords = [noun = effortNoun(result)](const std::string& text) { return inEffortWords(noun, text); };
+  const auto inWords = [&noun = result.effort](const std::string& text) { return inEffortWords(noun, text); };
   const std::vector<Plot> charts = plots(result);
   const std::shared_ptr<const Picture> picture = pictureOf(result);
   std::vector<PageSection> sections = parts(result, picture.get(), charts);

@@ -102,7 +102,7 @@ std::vector<Plot> plots(const ValidationResult& result) {
     if (!curve.lines.empty() && !curve.x.empty()) plots.push_back(curvePlot(curve));
   addSeriesPlots(result.timeseries, motorsOf(result), result.deviation ? result.deviation->allowed : 0, plots);
   std::stable_sort(plots.begin(), plots.end(), [](const Plot& a, const Plot& b) { return a.group < b.group; });
-  for (Plot& plot : plots) sayEfforts(effortNoun(result), plot);
+  for (Plot& plot : plots) sayEfforts(result.effort, plot);
   return plots;
 }
 

@@ -54,8 +54,8 @@ std::string reason(Verdict verdict, const std::vector<Check>& checks);
 bool onlyFastFails(const std::vector<Check>& checks);
 
 /// Returns "Right to 0.03 %: the largest deviation is 7.4 N m of 25066 N m, leg 3 at t = 2.97 s; …", followed by the
-/// effect of such errors and the smallest --rtol that would pass.
-std::string sentence(const EffortDeviation& deviation);
+/// effect of such errors and the smallest --rtol that would pass; empty if no effort was compared.
+std::string deviationSentence(const ValidationResult& result);
 
 /// Returns value / limit, and 0 for values below zero; NaN without a value or without a finite non-negative limit.
 double limitShare(const Check& check);

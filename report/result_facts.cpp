@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "model/check_catalogue.h"
 #include "model/scenario.h"
 #include "model/trajectories/trajectory_kinds.h"
 #include "report/quantity.h"
 #include "report/report.h"
+#include "validation/checks/families.h"
 #include "validation/verdict/effort_words.h"
 
 namespace ursula::report {
@@ -32,15 +34,17 @@ double largestOf(const TimeSeries& series, const std::string& beginning) {
   return largest;
 }
 
-/// Simbody's two topologies count as one formulation.
+/// Formulations of one engine, such as Simbody's two topologies, count as one.
 void addEngines(const ValidationResult& result, ResultFacts& facts) {
   double worst = none;
-  for (const char* engine : {"torque.pointwise", "torque.twin", "torque.maximal", "torque.mujoco"}) {
-    const Check* check = find(result, engine);
+  std::set<std::string> engines;
+  for (const auto& [name, engine] : engineChecks()) {
+    const Check* check = find(result, name);
     if (check == nullptr || !std::isfinite(check->largest.value)) continue;
     worst = std::isnan(worst) ? check->largest.value : std::max(worst, check->largest.value);
-    if (std::string(engine) != "torque.twin") ++facts.engines;
+    engines.insert(engine);
   }
+  facts.engines += static_cast<int>(engines.size());
   const double of_engine = largestOf(result.timeseries, "simbody_tau_");
   const double expected = of_engine > 0 ? of_engine : largestOf(result.timeseries, "tau_");
   facts.agreement = expected > 0 ? worst / expected : none;
@@ -181,7 +185,7 @@ std::string written(const ValidationResult& result) {
 
 }  // namespace
 
-std::string sentence(const ValidationResult& result) { return inEffortWords(effortNoun(result), written(result)); }
+std::string sentence(const ValidationResult& result) { return inEffortWords(result.effort, written(result)); }
 
 std::string detail(const ValidationResult& result) {
   const ResultFacts facts = factsOf(result);

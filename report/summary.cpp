@@ -5,7 +5,6 @@
 
 #include "report/report.h"
 #include "report/result_facts.h"
-#include "validation/verdict/effort_words.h"
 
 namespace ursula::report {
 namespace {
@@ -86,13 +85,12 @@ void addCauses(const ValidationResult& result, Json& summary) {
 std::string summaryJson(const ValidationResult& result) {
   Json checks = Json::array();
   for (const Check& check : result.checks) checks.push_back(checkJson(check));
-  const std::string deviation =
-      result.deviation ? " " + inEffortWords(effortNoun(result), sentence(*result.deviation)) : "";
+  const std::string deviation = deviationSentence(result);
   Json summary = {{"scenario", result.scenario},
                   {"verdict", name(result.verdict)},
                   {"formulation", name(result.subject.formulation)},
                   {"limits", name(result.limits)},
-                  {"reason", reason(result.verdict, result.checks) + deviation},
+                  {"reason", reason(result.verdict, result.checks) + (deviation.empty() ? "" : " ") + deviation},
                   {"checks", checks},
                   {"findings", object(findingTexts(result))},
                   {"provenance", object(result.provenance)}};

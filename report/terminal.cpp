@@ -12,7 +12,6 @@
 #include "report/sections.h"
 #include "report/text.h"
 #include "report/written_files.h"
-#include "validation/verdict/effort_words.h"
 
 namespace ursula::report {
 namespace {
@@ -31,6 +30,10 @@ Paint paintOf(Verdict verdict) {
       break;
   }
   return Paint::quiet;
+}
+
+std::string paintedVerdict(Verdict verdict, bool coloured) {
+  return painted(name(verdict), paintOf(verdict), coloured);
 }
 
 bool isShown(const Check& check) {
@@ -139,17 +142,17 @@ std::string motorsText(const std::vector<MotorDeviation>& motors) {
 }
 
 /// The sources of the replay's error, one per line.
-std::string replayText(const ReplayError& found, const std::string& noun) {
+std::string replayText(const ReplayError& found, const std::string& effort) {
   std::string out = std::string("dominant error: ") + name(found.dominant);
-  if (!found.measured) return out + (found.dominant == ErrorSource::model ? ": the torques are wrong\n" : "\n");
+  if (found.dominant == ErrorSource::model && !found.measured) out += ": the " + effort + "s are wrong";
   out += "\n";
+  if (!found.measured) return out;
   std::vector<std::vector<std::string>> rows;
-  for (const auto& [source, share] : {std::pair("rounding", found.rounding),
+  for (const auto& [source, share] : {std::pair<std::string, SourceOfError>("rounding", found.rounding),
                                       {"integration", found.integration},
                                       {"gaps", found.closure},
-                                      {"torques", found.model}})
-    rows.push_back({inEffortWords(noun, source), fmt::format("{:.3g} m", share.error),
-                    fmt::format("± {:.2g} m", share.uncertainty)});
+                                      {effort + "s", found.model}})
+    rows.push_back({source, fmt::format("{:.3g} m", share.error), fmt::format("± {:.2g} m", share.uncertainty)});
   rows.push_back({"the rest", fmt::format("{:.3g} m", found.unexplained), ""});
   out +=
       fmt::format("  the replay is off by {:.3g} m at t = {:.6g} s, where deviations have grown {:.4g}-fold; of it\n",
@@ -166,17 +169,15 @@ bool replayIsOpen(const std::vector<Check>& checks) {
 /// Returns details of the replay and of wrong torques; right torques need none.
 std::string reasonsText(const ValidationResult& result) {
   std::string out;
-  if (result.replay_error && replayIsOpen(result.checks))
-    out += inEffortWords(effortNoun(result), replayText(*result.replay_error, effortNoun(result)));
+  if (result.replay_error && replayIsOpen(result.checks)) out += replayText(*result.replay_error, result.effort);
   if (const std::vector<MotorDeviation> motors = motorsOff(result); !motors.empty())
-    out += effortNoun(result) + "s against the expected ones:\n" + motorsText(motors);
+    out += result.effort + "s against the expected ones:\n" + motorsText(motors);
   if (!result.cause_words.cause.empty()) out += causeText(result.cause_words) + "\n";
   return out.empty() ? "" : "\n" + out;
 }
 
 std::string quietHead(const SuiteEntry& entry, bool coloured) {
-  return fmt::format("{}: {} — {}\n", withoutControls(entry.scenario),
-                     painted(name(entry.verdict), paintOf(entry.verdict), coloured),
+  return fmt::format("{}: {} — {}\n", withoutControls(entry.scenario), paintedVerdict(entry.verdict, coloured),
                      reason(entry.verdict, entry.checks));
 }
 
@@ -202,12 +203,10 @@ std::string openChecks(const std::vector<Check>& checks) {
 }  // namespace
 
 std::string validationText(const ValidationResult& result, bool coloured) {
-  const std::string verdict = painted(name(result.verdict), paintOf(result.verdict), coloured);
-  const std::string deviation =
-      result.deviation ? inEffortWords(effortNoun(result), ursula::sentence(*result.deviation)) + "\n" : "";
+  const std::string verdict = paintedVerdict(result.verdict, coloured), deviation = deviationSentence(result);
   return fmt::format("{}: {}\n\n{}{}{}\nverdict: {} — {}\n{}", withoutControls(result.scenario), verdict,
                      checksTable(result, coloured), notApplicableText(result.checks), reasonsText(result), verdict,
-                     reason(result.verdict, result.checks), deviation);
+                     reason(result.verdict, result.checks), deviation.empty() ? "" : deviation + "\n");
 }
 
 std::string quietText(const ValidationResult& result, bool coloured) {

@@ -124,15 +124,19 @@ std::string roundedUp(double value) {
 
 }  // namespace
 
-std::string sentence(const EffortDeviation& deviation) {
-  if (std::isnan(deviation.largest)) return "The largest deviation is unknown: a torque is not a number.";
+std::string deviationSentence(const ValidationResult& result) {
+  if (!result.deviation) return "";
+  const EffortDeviation& deviation = *result.deviation;
+  if (std::isnan(deviation.largest))
+    return fmt::format("The largest deviation is unknown: {} {} is not a number.", result.effort[0] == 'e' ? "an" : "a",
+                       result.effort);
   if (deviation.largest_effort == 0)
-    return fmt::format("No torque is needed here; the largest that was found is {:.3g} {}.", deviation.largest,
-                       deviation.unit);
-  constexpr double right = 1e-6;  // torques with larger errors are not called right
+    return fmt::format("No {} is needed here; the largest that was found is {:.3g} {}.", result.effort,
+                       deviation.largest, deviation.unit);
+  constexpr double right = 1e-6;  // efforts with larger errors are not called right
   const std::string seen =
       std::isfinite(deviation.seen)
-          ? fmt::format(" An error of {:.1g} of the largest torque would have been seen.", deviation.seen)
+          ? fmt::format(" An error of {:.1g} of the largest {} would have been seen.", deviation.seen, result.effort)
           : "";
   return fmt::format(
       "{} {}: the largest deviation is {} {} of {:.6g} {}, {} at t = {:.4g} s; {}the smallest --rtol that would pass "

@@ -91,12 +91,13 @@ void diagnoseSolver(const Scenario& scenario, const Evidence& evidence, const Su
   const GivenTorques answers = answersOf(evidence, subject.name);
   if (answers.t.empty()) return;
   const Scenario here = relocated(scenario, evidence.natural.origin);  // in SI, because the texts are
+  const Subject solver = inSi(subject, evidence.natural);
   std::vector<Motion<double>> motions;
   for (const double t : answers.t) motions.push_back(here.trajectory->at(t));
   const TorqueFile file =
       within(torqueFileOf(answers, scenario.manipulator->motors()), scenario.trajectory->duration());
   AskedApart asked;
-  if (evidence.has.out_of_time.empty()) asked = askedApart(inSi(subject, evidence.natural), here, motions);
+  if (evidence.has.out_of_time.empty()) asked = askedApart(solver, here, motions);
   addDiagnosis(diagnose(here, runExternal(here, file), asked), result);
 }
 
@@ -130,14 +131,13 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   tell(options, work, done, "sources of the error");
   std::optional<ErrorBudget> budget;
   if (options.budget && evidence.amplification != nullptr)
-    budget = attribute(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan);
+    budget = attribute(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan,
+                       options.threads);
   reference.stop();  // the rest is short and turns the finished part into a result
   judgeEveryAnswer(evidence, result.checks);
   addFacts(budget, evidence, result);
   result.deviation = effortDeviation(evidence, result.checks);
-  listEveryCheck(scenario, evidence.has, result);
-  judgeByTolerance(scenario, 0, result);
-  judgeByUser(scenario.acceptance, result);
+  conclude(scenario, evidence.has, 0, result);
   if (result.verdict == Verdict::fail && subject.formulation == Formulation::external)
     diagnoseSolver(scenario, evidence, subject, result);
   sayEfforts(result);
@@ -154,11 +154,9 @@ std::shared_ptr<const Reference> referenceOf(const Scenario& scenario, const Val
 ValidationResult nothingReached(const Scenario& scenario, const Subject& subject, const OutOfTime& over) {
   ValidationResult result = emptyResult(scenario, subject);
   result.timeseries = validationSeries(*scenario.manipulator, {}, {});
-  SubjectHas has;
+  SubjectHas has(subject);
   has.out_of_time = over.what();
-  listEveryCheck(scenario, has, result);
-  judgeByTolerance(scenario, 0, result);
-  judgeByUser(scenario.acceptance, result);
+  conclude(scenario, has, 0, result);
   sayEfforts(result);
   return result;
 }

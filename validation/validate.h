@@ -56,18 +56,18 @@ std::shared_ptr<const Reference> makeReference(const Scenario& scenario, int thr
 double estimatedSeconds(const Scenario& scenario);
 
 /// Validates external torques: pointwise at their own instants, and by replay on a spline through them. The failed
-/// checks' `why` and the findings describe their errors. Throws CsvError for instants outside the motion, and like
-/// validate(). `time_limit` and `asked_to_end` are those of ValidationOptions.
+/// checks' `off` and the findings describe their errors. Throws CsvError for instants outside the motion, and like
+/// validate(). `time_limit`, `asked_to_end` and `threads` are those of ValidationOptions.
 ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques, double time_limit = 0,
-                                  std::function<bool()> asked_to_end = nullptr);
+                                  std::function<bool()> asked_to_end = nullptr, int threads = 1);
 
 /// The same from a file; throws CsvError like readTorqueFile.
 ValidationResult validateExternal(const Scenario& scenario, const std::filesystem::path& torques_csv);
 
 /// The part of validate() that needs no replay and little of Simbody: the commanded motion, and joint motion and
 /// torques of the NOC and Simbody at the scenario's instants. Values are those of validate(); limits are derived
-/// instead of measured, and so wider. If a value exceeds one, it makes all of validate()'s pointwise checks with their
-/// limits. `of_motion` are earlier checks of the commanded motion; null makes them here. Throws like validate().
+/// instead of measured, and so wider. Unless all pass, it makes all of validate()'s pointwise checks with their limits.
+/// `of_motion` are earlier checks of the commanded motion; null makes them here. Throws like validate().
 ValidationResult validatePointwise(const Scenario& scenario, const std::vector<Check>* of_motion = nullptr);
 
 }  // namespace ursula

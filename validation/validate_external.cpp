@@ -78,7 +78,7 @@ void addFacts(const Evidence& evidence, const ErrorBudget& budget, ValidationRes
 }  // namespace
 
 ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques, double time_limit,
-                                  std::function<bool()> asked_to_end) {
+                                  std::function<bool()> asked_to_end, int threads) {
   const Deadline deadline(time_limit, std::move(asked_to_end));
   checkMotion(scenario);
   requireTellingTolerance(scenario);
@@ -101,13 +101,11 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
                              torques.is_read ? CalledBy::torques : CalledBy::program, torques.map});
   result.checks = judgeAll(evidence);
   const ErrorBudget budget =
-      attribute(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan);
+      attribute(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan, threads);
   deadline.remove();  // the rest is short and turns the finished part into a result
   addFacts(evidence, budget, result);
   result.deviation = effortDeviation(evidence, result.checks);
-  listEveryCheck(scenario, evidence.has, result);
-  judgeByTolerance(scenario, replay.between * natural.units.effort(), result);
-  judgeByUser(scenario.acceptance, result);
+  conclude(scenario, evidence.has, replay.between * natural.units.effort(), result);
   addFileFindings(file, result);
   if (result.verdict == Verdict::fail) {
     const Scenario relocated = ursula::relocated(scenario, natural.origin);  // in SI, because the texts are

@@ -8,21 +8,22 @@
 #include "validation/checks/tolerance.h"
 #include "validation/findings/findings.h"
 #include "validation/subject/motion_check.h"
+#include "validation/verdict/effort_words.h"
 
 namespace ursula {
 namespace {
 
-bool anyBeyond(const std::vector<Check>& checks) {
+bool anyNotPassed(const std::vector<Check>& checks) {
   return std::any_of(checks.begin(), checks.end(), [](const Check& check) { return check.verdict != Verdict::pass; });
 }
 
-/// Compares everything at an instant with measured limits, if a derived limit is exceeded.
+/// Compares everything at an instant with measured limits unless all pass with derived ones.
 std::vector<Check> judgeSamples(Evidence& evidence) {
   const int count = evidence.given->simulation.samples;
   const std::vector<double> instants = equallySpaced(evidence.scenario->trajectory->duration(), count);
   evidence.samples = runJointsAndTorques(*evidence.scenario, *evidence.subject, instants);
   std::vector<Check> checks = judgeJointsAndTorques(evidence.samples, evidence.units());
-  if (anyBeyond(checks)) {
+  if (anyNotPassed(checks)) {
     const RoundingProfile profile(*evidence.scenario, profileInstants(count));
     evidence.samples = runPointwise(*evidence.scenario, *evidence.subject, instants, profile);
     checks = judgePointwise(evidence.samples, true, evidence.units());
@@ -45,15 +46,14 @@ ValidationResult validatePointwise(const Scenario& given, const std::vector<Chec
   const Subject subject = transformed(nocSubject(*here.manipulator, here.load), there);
   evidence.scenario = &scenario;
   evidence.subject = &subject;
-  evidence.has.left_out_ladder = evidence.has.left_out_reactions = true;
+  evidence.has.left_out_replays = true;
 
   ValidationResult result = emptyResult(given, subject);
   result.checks = of_motion == nullptr ? judgeCommandedMotion(given) : *of_motion;
   for (Check& check : judgeSamples(evidence)) result.checks.push_back(std::move(check));
   if (given.tolerance) result.deviation = effortDeviation(evidence, result.checks);
-  listEveryCheck(given, evidence.has, result);
-  judgeByTolerance(given, 0, result);
-  judgeByUser(given.acceptance, result);
+  conclude(given, evidence.has, 0, result);
+  sayEfforts(result);
   return result;
 }
 

@@ -38,9 +38,10 @@ struct NocWorkspace {
   TwistShaping<S> T, T_rate;
 };
 
-/// The paper's method for a platform on legs of any kinds with any motors, as printed. Section 2 gives kinematics and
-/// Jacobians, section 3 dynamics by the natural orthogonal complement. A validation judges this formulation. It is
-/// written to be read beside the paper; fast/ gives the same numbers without forming T.
+/// The paper's method for a platform on legs of any kinds with any motors, with the corrections that docs/equations.md
+/// names. Section 2 gives kinematics and Jacobians, section 3 dynamics by the natural orthogonal complement. A
+/// validation judges this formulation. It is written to be read beside the paper; fast/ gives the same numbers without
+/// forming T.
 ///
 /// The generalised speeds are the rates q̇ of the driven coordinates, φ̇ in the paper. Immutable; threads share it, each
 /// with its own workspace. `Formulas` is Corrected, or WithFormulaErrors for wrong formulas. Only functions that say so

@@ -43,7 +43,7 @@ struct MeasuredNumber {
   double tolerance = -1;   ///< stated tolerance; negative for none
   double least_found = 0;  ///< smallest deviation that the log tells from tolerances and noise in 95 % of all cases; 0
                            ///< if there is no such or no tolerance
-  bool identified = true;  ///< whether a single number's uncertainty is below a tenth of its own size
+  bool identified = true;  ///< whether a single number's uncertainty is below a tenth of its assumed size
   std::vector<std::pair<std::string, double>> terms = {};  ///< names and factors of a combination
 };
 

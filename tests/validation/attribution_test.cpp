@@ -45,7 +45,7 @@ ErrorBudget budgetOf(const std::string& name, const TorqueChange& change = nullp
     window.replay = replay(scenario, plan.torques, settings);
   }
   const auto answers = runPointwise(scenario, subject, reference.instants, reference.rounding().profile);
-  const ErrorBudget budget = attribute(scenario, answers, windows, &reference.replays().amplification, plan);
+  const ErrorBudget budget = attribute(scenario, answers, windows, &reference.replays().amplification, plan, 2);
   std::cout << name << ": observed " << budget.observed.norm() << ", model " << budget.model.error.norm()
             << ", integration " << budget.integration.error.norm() << ", rounding " << budget.rounding.error.norm()
             << ", closure " << budget.closure.error.norm() << ", unexplained " << budget.unexplained().norm() << " of "
@@ -152,7 +152,7 @@ TEST(Attribution, comesOutTheSameTwice) {
 TEST(Attribution, withoutAReplayNothingIsMeasured) {
   const Reference& reference = *referenceOf("paper-helix", budget_samples);
   const ErrorBudget none =
-      attribute(reference.scenario, {}, {}, &reference.replays().amplification, reference.replays().plan);
+      attribute(reference.scenario, {}, {}, &reference.replays().amplification, reference.replays().plan, 2);
   EXPECT_FALSE(none.measured);
   ValidationResult result;
   addBudget(none, result);

@@ -234,15 +234,16 @@ class ReactionCheck : public testing::TestWithParam<std::string> {
   Scenario scenario_ = scenarioOf(GetParam());
   std::vector<PointwiseSample> samples_ = rightSamples(scenario_, instants);
   RoundingProfile profile_{scenario_, instants};
+  Subject solver_ = nocSubject(*scenario_.manipulator, scenario_.load);
 
   Check judge(const std::vector<PointwiseSample>& samples) const {
-    return judgeReactions(runReactions(scenario_, samples), samples, profile_);
+    return judgeReactions(runReactions(scenario_, solver_, samples), samples, profile_);
   }
 };
 
 TEST_P(ReactionCheck, passesForTheSolver) {
   TimeSeries series;
-  const std::vector<ReactionSample> reactions = runReactions(scenario_, samples_);
+  const std::vector<ReactionSample> reactions = runReactions(scenario_, solver_, samples_);
   addReactionColumns(*scenario_.manipulator, reactions, {}, series);
   const Check check = judgeReactions(reactions, samples_, profile_);
   EXPECT_EQ(check.verdict, Verdict::pass) << check.why;

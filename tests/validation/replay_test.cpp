@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "tests/support/vectors.h"
+#include "tests/validation/replay_errors.h"
 #include "validation/checks/judges.h"
 #include "validation/limits/amplification.h"
 #include "validation/subject/subject.h"
@@ -47,16 +48,16 @@ TEST_F(PaperHelixReplay, staysOnTheHelix) {
     gap = std::max(gap, step.closure.position);
     rate = std::max(rate, step.closure.velocity);
   }
-  std::cout << "position " << found.maxPositionError() << " m, orientation " << found.maxRotationError() << " rad, gap "
+  std::cout << "position " << maxPositionError(found) << " m, orientation " << maxRotationError(found) << " rad, gap "
             << gap << " m, " << rate << " m/s, " << found.evaluations << " evaluations\n";
   EXPECT_EQ(found.gave_up, "");
   EXPECT_EQ(found.steps.front().t, 0);
   EXPECT_NEAR(found.steps.back().t, 3, 1e-12);
-  EXPECT_LE(found.maxPositionError(), 1e-9);  // these five are the project's promises
-  EXPECT_LE(found.maxRotationError(), 1e-9);
+  EXPECT_LE(maxPositionError(found), 1e-9);  // these five are the project's promises
+  EXPECT_LE(maxRotationError(found), 1e-9);
   EXPECT_LE(gap, 1e-12);
   EXPECT_LE(found.evaluations, 1600);
-  EXPECT_GT(found.maxPositionError(), 0);
+  EXPECT_GT(maxPositionError(found), 0);
 }
 
 TEST_F(PaperHelixReplay, countsEveryEvaluation) {
@@ -73,8 +74,8 @@ TEST_F(PaperHelixReplay, isTheSameThroughTheOtherTopology) {
   const Replay a = replay(scenario_, torques(), settings()), b = replay(scenario_, torques(), other);
   EXPECT_EQ(b.gave_up, "");
   EXPECT_LE((a.steps.back().position_error - b.steps.back().position_error).norm(), bound(1e-14, a, 3));
-  EXPECT_LE(b.maxPositionError(), 1e-9);
-  EXPECT_LE(b.maxRotationError(), 1e-9);
+  EXPECT_LE(maxPositionError(b), 1e-9);
+  EXPECT_LE(maxRotationError(b), 1e-9);
 }
 
 TEST_F(PaperHelixReplay, agreesWithSimbodysOwnIntegrator) {
@@ -92,16 +93,16 @@ TEST_F(PaperHelixReplay, agreesWithSimbodysOwnIntegrator) {
     EXPECT_LE((at.rotation_error - with.rotation_error).norm(), bound(1e-11, a, at.t));
   }
   EXPECT_LE(bound(1e-11, a, 3), 1e-3) << "the bound has lost its meaning";
-  std::cout << "rk_merson: " << b.maxPositionError() << " m, " << b.evaluations << " evaluations\n";
-  EXPECT_LE(b.maxPositionError(), 1e-6);
+  std::cout << "rk_merson: " << maxPositionError(b) << " m, " << b.evaluations << " evaluations\n";
+  EXPECT_LE(maxPositionError(b), 1e-6);
 }
 
 TEST_F(PaperHelixReplay, leavesItUnderTorquesThatAreAMillionthTooLarge) {
   const Replay right = replay(scenario_, torques(), settings()),
                wrong = replay(scenario_, torques(1 + 1e-6), settings());
   EXPECT_EQ(wrong.gave_up, "");
-  EXPECT_GT(wrong.maxPositionError(), 1e4 * right.maxPositionError());
-  EXPECT_GT(wrong.maxRotationError(), 1e4 * right.maxRotationError());
+  EXPECT_GT(maxPositionError(wrong), 1e4 * maxPositionError(right));
+  EXPECT_GT(maxRotationError(wrong), 1e4 * maxRotationError(right));
   for (const ReplayStep& step : wrong.steps) EXPECT_LE(step.closure.position, 1e-12) << "wrong torques keep the loops";
 }
 
@@ -127,7 +128,7 @@ TEST_F(PaperHelixReplay, startsAnywhereOnTheMotion) {
   const Replay found = replay(scenario_, torques(), later);
   EXPECT_EQ(found.steps.front().t, 1.5);
   EXPECT_LE(found.steps.front().position_error.norm(), 8 * std::numeric_limits<double>::epsilon());
-  EXPECT_LE(found.maxPositionError(), 1e-11);
+  EXPECT_LE(maxPositionError(found), 1e-11);
 }
 
 /// Errors that are cubic in t, with their derivatives as rates.
@@ -163,15 +164,6 @@ TEST(Interpolated, holdsTheEndsBeyondThem) {
   replay.steps = {cubic(0), cubic(1)};
   EXPECT_EQ(interpolated(replay, -1).position_error, cubic(0).position_error);
   EXPECT_EQ(interpolated(replay, 2).position_error, cubic(1).position_error);
-}
-
-TEST(ReplayErrors, noStepIsNotANumber) {
-  EXPECT_TRUE(std::isnan(Replay{}.maxPositionError()));
-  Replay replay;
-  replay.steps = {cubic(0), cubic(1), cubic(0.5)};
-  replay.steps[1].rotation_error.x() = std::nan("");
-  EXPECT_TRUE(std::isnan(replay.maxRotationError()));
-  EXPECT_FALSE(std::isnan(replay.maxPositionError()));
 }
 
 }  // namespace

@@ -154,15 +154,7 @@ bool areRepeated(const std::vector<double>& efforts) {
   });
 }
 
-}  // namespace
-
-std::vector<int> wrongMotors(const ExternalTorques& torques) {
-  std::vector<int> out;
-  for (int i = 0; i < motor_count; ++i)
-    if (!isMotorRight(torques, i)) out.push_back(i);
-  return out;
-}
-
+/// Explains efforts that never leave a range of a motor's own, and are right wherever the right ones are within it.
 std::optional<Explanation> cutOff(const MotorNames& motors, const ExternalTorques& torques, const AskedApart& asked) {
   std::vector<int> which;
   std::string text;
@@ -193,6 +185,8 @@ std::optional<Explanation> cutOff(const MotorNames& motors, const ExternalTorque
   return out;
 }
 
+/// Explains motors that answer the same at every instant, and whatever they are asked, where the right efforts vary.
+/// The others must be right.
 std::optional<Explanation> sameAnswers(const MotorNames& motors, const ExternalTorques& torques,
                                        const AskedApart& asked) {
   std::vector<int> which;
@@ -219,6 +213,8 @@ std::optional<Explanation> sameAnswers(const MotorNames& motors, const ExternalT
   return out;
 }
 
+/// Explains efforts that lack only digits. These are single-precision numbers. From a solver they are also rounded
+/// answers, and answers to nearly the same question that jump by about the deviation.
 std::optional<Explanation> fewDigits(const MotorNames& motors, const ExternalTorques& torques,
                                      const AskedApart& asked) {
   if (isSinglePrecision(torques))
@@ -242,6 +238,22 @@ double changedWhenAskedAgain(const ExternalTorques& torques, const AskedApart& a
     }
   }
   return largest > 0 ? change / largest : 0;
+}
+
+}  // namespace
+
+std::vector<int> wrongMotors(const ExternalTorques& torques) {
+  std::vector<int> out;
+  for (int i = 0; i < motor_count; ++i)
+    if (!isMotorRight(torques, i)) out.push_back(i);
+  return out;
+}
+
+AnswersAlone readAlone(const MotorNames& motors, const ExternalTorques& torques, const AskedApart& asked) {
+  const std::optional<Explanation> digits = fewDigits(motors, torques, asked);
+  AnswersAlone out{digits.has_value(), sameAnswers(motors, torques, asked), changedWhenAskedAgain(torques, asked)};
+  if (!out.explanation) out.explanation = digits ? digits : cutOff(motors, torques, asked);
+  return out;
 }
 
 }  // namespace ursula

@@ -69,8 +69,7 @@ std::string amountText(const Deviating& leg, const char* unit, double largest_to
 Diagnosis deviationTexts(const MotorNames& motors, const ExternalTorques& torques) {
   const double largest_torque = largestTorque(torques);
   std::string legs, details, right;
-  Deviating all = deviationOf(torques);
-  all.count = 0;
+  const Deviating all = deviationOf(torques);
   double most = 0;
   int worst = 0;
   for (int i = 0; i < motor_count; ++i) {
@@ -82,7 +81,6 @@ Diagnosis deviationTexts(const MotorNames& motors, const ExternalTorques& torque
                            amountText(leg, motors.unit(i), largest_torque), torques.file.t[leg.worst],
                            intervalText(torques, leg));
     if (leg.largest > most) most = leg.largest, worst = i;
-    all.count = std::max(all.count, leg.count);
   }
   if (legs.empty()) return {};
   const std::string kind = motors.kind();
@@ -264,8 +262,8 @@ Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torqu
 Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques, const AskedApart& asked) {
   const MotorNames motors = motorNames(*scenario.manipulator);
   Diagnosis out = deviationTexts(motors, torques);
-  const std::optional<Explanation> digits = fewDigits(motors, torques, asked);
-  if (out.summary.empty() && digits) {
+  const AnswersAlone alone = readAlone(motors, torques, asked);
+  if (out.summary.empty() && alone.has_few_digits) {
     ExternalTorques printed = torques;  // a solver's answers have every digit
     for (Vector6d& row : printed.precision) row.setZero();
     out = deviationTexts(motors, printed);
@@ -274,16 +272,14 @@ Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques, con
   if (const std::size_t off = deviationOf(torques).count; off > 0)
     out.deviation += fmt::format("; off in {} of {} samples, {:.3g} %", off, torques.file.rows(),
                                  100.0 * static_cast<double>(off) / static_cast<double>(torques.file.rows()));
-  const std::optional<Explanation> same = sameAnswers(motors, torques, asked);
-  const std::optional<Explanation> cut = same ? same : digits ? digits : cutOff(motors, torques, asked);
-  Explanation explanation = cut ? *cut : explanationOf(scenario, torques, asked);
+  Explanation explanation = alone.explanation ? *alone.explanation : explanationOf(scenario, torques, asked);
   out.cause = std::move(explanation.text);
   out.claim = explanation.claim;
   out.named = std::move(explanation.named);
   out.others = std::move(explanation.others);
   out.terms = asked.terms;
   for (TermError& term : out.terms)
-    if (term.term == repeat_term) term.error = std::max(term.error, changedWhenAskedAgain(torques, asked));
+    if (term.term == repeat_term) term.error = std::max(term.error, alone.change);
   return out;
 }
 

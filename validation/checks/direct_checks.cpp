@@ -17,9 +17,9 @@ std::string motorChanged(int where) { return where < 0 ? "as commanded" : fmt::f
 using Compare = std::function<void(const DirectAnswer&, const Conditioning&, int motor)>;
 
 /// `what` precedes the instant in the words; `each` passes on the answers to compare.
-Check judgeAnswers(const char* check, const char* what, const std::function<void(const Compare&)>& each,
-                   const Subject& subject, const std::vector<PointwiseSample>& samples, const RoundingProfile& profile,
-                   const Units& units) {
+Check judgeAccelerations(const char* check, const char* what, const std::function<void(const Compare&)>& each,
+                         const Subject& subject, const std::vector<PointwiseSample>& samples,
+                         const RoundingProfile& profile, const Units& units) {
   RemeasuredLimits look(profile);
   WorstShare worst;
   double size = 0;
@@ -35,18 +35,14 @@ Check judgeAnswers(const char* check, const char* what, const std::function<void
     return notMade(check, "m/s^2", std::string("no answer: ") + error.what());
   }
   if (!worst.any) return notMade(check, "m/s^2", "no state was compared");
-  const CheckedQuantity quantity{check, "m/s^2", size};
-  const JudgedValue at = worst.shown(quantity.useful());
-  Check out = judgedIfUseful(
-      quantity, worst,
-      fmt::format("eps (|| T_P inv(I) || x the torque's and the platform's compliance x the forces that close the "
-                  "loops) x {:g} x the spread measured in turned and rescaled frames",
-                  rounding_safety),
-      fmt::format("platform accelerations by (36) against Simbody's, {}; shown for t = {:.6g} s, torques {}", what,
-                  at.t * units.time, motorChanged(at.where)),
-      causeOfRounding(samples, worst.widest_t, Rounded::direct));
-  out.largest = {worst.largest, worst.largest_t * units.time, motorChanged(worst.largest_where)};
-  return out;
+  return judgedShown(
+      {check, "m/s^2", size}, worst, units,
+      {fmt::format("eps (|| T_P inv(I) || x the torque's and the platform's compliance x the forces that close the "
+                   "loops) x {:g} x the spread measured over frames and changed inputs",
+                   rounding_safety),
+       fmt::format("platform accelerations by (36) against Simbody's, {}", what),
+       [](int motor) { return "torques " + motorChanged(motor); },
+       causeOfRounding(samples, worst.widest_t, Rounded::direct)});
 }
 
 }  // namespace
@@ -58,7 +54,8 @@ Check judgeDirect(const std::vector<DirectSample>& direct, const Subject& subjec
       for (std::size_t set = 0; set < here.commanded.size(); ++set)
         compare(here.commanded[set], samples[here.sample].conditioning, static_cast<int>(set) - 1);
   };
-  return judgeAnswers("direct.pointwise", "under seven sets of torques each", each, subject, samples, profile, units);
+  return judgeAccelerations("direct.pointwise", "under seven sets of torques each", each, subject, samples, profile,
+                            units);
 }
 
 Check judgeOffPath(const std::vector<DirectSample>& direct, const Subject& subject,
@@ -67,7 +64,7 @@ Check judgeOffPath(const std::vector<DirectSample>& direct, const Subject& subje
     for (const DirectSample& here : direct)
       for (const DirectAnswer& answer : here.off_path) compare(answer, profile.at(answer.state), -1);
   };
-  return judgeAnswers("direct.off_path", "in states beside the path", each, subject, samples, profile, units);
+  return judgeAccelerations("direct.off_path", "in states beside the path", each, subject, samples, profile, units);
 }
 
 }  // namespace ursula

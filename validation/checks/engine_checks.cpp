@@ -45,7 +45,7 @@ Check judgeEngine(const std::vector<EngineSample>& samples, std::size_t k, const
   return judgedShown(
       {kind.check, units.efforts.unit, torque}, worst, units,
       {fmt::format(
-           "eps kappa(B) kappa(legs) x || |T|' |w| || x {:g} x the spread measured in turned and rescaled frames",
+           "eps kappa(B) kappa(legs) x || |T|' |w| || x {:g} x the spread measured over frames and changed inputs",
            rounding_safety),
        fmt::format("torques against {}, at {} instants", kind.made_of, samples.size()), motorsOf(units),
        causeOfRounding(conditions, worst.widest_t)});

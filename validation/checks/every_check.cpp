@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 
 #include "engines/further_engines.h"
 #include "model/check_catalogue.h"
@@ -12,12 +13,11 @@
 namespace ursula {
 namespace {
 
-/// Returns why a check does not apply; empty if it does.
-std::string whyNot(const CheckRow& check, const Scenario& scenario, const SubjectHas& has) {
+/// Returns what scenario, subject or build lack for a check; empty if nothing.
+std::string lacking(const CheckRow& check, const Scenario& scenario, const SubjectHas& has) {
   const auto unless = [](bool there, const std::string& why) { return there ? "" : why; };
   const bool of_files = check.needs == CheckNeeds::nothing || check.needs == CheckNeeds::torque_file;
-  if (!has.any_instant && of_files) return "";
-  if (!has.any_instant && check.needs != CheckNeeds::load_history)
+  if (!has.any_instant && !of_files && check.needs != CheckNeeds::load_history)
     return "a file gives torques alone, at its own instants";
   switch (check.needs) {
     case CheckNeeds::load_history:
@@ -28,21 +28,32 @@ std::string whyNot(const CheckRow& check, const Scenario& scenario, const Subjec
       return unless(has.direct_dynamics, "the subject solves no direct dynamics");
     case CheckNeeds::other_machines:
       return unless(has.other_machines, "the subject cannot be made for another machine");
-    case CheckNeeds::own_reactions:
-      return has.left_out_reactions ? "left out by the caller's options" : "the subject finds no reactions";
     case CheckNeeds::own_complement:
-      return "the subject forms no T";
+      return unless(has.complement, "the subject forms no T");
     case CheckNeeds::further_engine: {
       const EngineKind& engine = *furtherEngineOf(check.name);
       return unless(engine.available(), fmt::format("this build has no {}", engine.name));
     }
     case CheckNeeds::torque_file:
-      return "the torques do not come from a file";
+      return unless(!has.any_instant, "the torques do not come from a file");
+    case CheckNeeds::own_reactions:
     case CheckNeeds::nothing:
     case CheckNeeds::any_instant:
       break;
   }
-  return unless(!has.left_out_ladder, "left out by the caller's options");
+  return "";
+}
+
+bool isLeftOut(const CheckRow& check, const SubjectHas& has) {
+  const bool of_ladder = std::string_view(check.name).rfind("integration.", 0) == 0;
+  return has.left_out_replays || (of_ladder && has.left_out_ladder) ||
+         (check.needs == CheckNeeds::own_reactions && has.left_out_reactions);
+}
+
+/// Returns why a check does not apply; empty if it does.
+std::string whyNot(const CheckRow& check, const Scenario& scenario, const SubjectHas& has) {
+  const std::string why = lacking(check, scenario, has);
+  return why.empty() && isLeftOut(check, has) ? "left out by the caller's options" : why;
 }
 
 Check notMadeBy(const CheckRow& check, const Scenario& scenario, const SubjectHas& has) {

@@ -97,14 +97,14 @@ std::vector<Check> judgeComplement(const std::vector<ComplementSample>& samples,
 /// `fast.direct`, `fast.inverse_batch`, `fast.direct_batch`. `fast` is at `samples`.
 std::vector<Check> judgeFast(const FastSamples& fast, const std::vector<PointwiseSample>& samples, const Units& units);
 
-/// Exact invariances without a reference, `invariance.*`: the world rotated (with gravity), legs relabelled, masses
-/// doubled, time reversed. Returns none if the subject is no solver. Loads are left out.
+/// Exact invariances without a reference, `invariance.*`: the world rotated (with gravity), axes turned, other units,
+/// legs relabelled, masses doubled, time reversed. Returns none if the subject is no solver. Loads are left out.
 std::vector<Check> judgeInvariances(const std::vector<InvarianceSamples>& invariances,
                                     const std::vector<PointwiseSample>& samples, const RoundingProfile& profile,
                                     const Units& units = {});
 
 /// `reactions.pointwise` compares the joint reactions from the solver's formulation with Simbody's mobilizer and
-/// constraint reactions, at the instants of `samples`. Only for the correct formulas.
+/// constraint reactions, at the instants of `samples`. For subjects that find reactions.
 Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::vector<PointwiseSample>& samples,
                      const RoundingProfile& profile, const Units& units = {});
 

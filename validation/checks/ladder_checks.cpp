@@ -23,11 +23,13 @@ constexpr double least_gain = 4;
 /// An error below this share of the largest useful limit decides nothing, even without convergence.
 constexpr double harmless = 0.01;
 
-/// Returns an inconclusive check if this proves nothing, otherwise a failure.
-Check notClimbed(bool proves_nothing, const std::string& why) {
+/// Returns an inconclusive ladder if this proves nothing, otherwise a failure. The second integrator has nothing to be
+/// compared with.
+std::vector<Check> notClimbed(bool proves_nothing, const std::string& why) {
   static constexpr const char* check = "integration.ladder";
-  return proves_nothing ? notJudgeable(Reason::unfinished, check, std::nan(""), std::nan(""), "m", "", why)
-                        : notMade(check, "m", why);
+  return {proves_nothing ? notJudgeable(Reason::unfinished, check, std::nan(""), std::nan(""), "m", "", why)
+                         : notMade(check, "m", why),
+          notApplicable(second_check, "m", why)};
 }
 
 /// The error at the window's end that rounding alone may cause, m.
@@ -45,7 +47,8 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
   const Rung& coarse = ladder.rungs[ladder.rungs.size() - 2];
   const Rung& fine = ladder.rungs.back();
   std::string orders;
-  for (double p : ladder.observed_orders) orders += fmt::format("{}{:.3g}", orders.empty() ? "" : ", ", p);
+  for (double p : ladder.observed_orders)
+    if (std::isfinite(p)) orders += fmt::format("{}{:.3g}", orders.empty() ? "" : ", ", p);
   const double steps = static_cast<double>(fine.steps) / static_cast<double>(std::max(coarse.steps, 1L));
   // The rungs take as many steps as each other, but the judged replay takes more, so knots do not set the steps.
   const bool ignores_tolerance =
@@ -63,7 +66,8 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
                   "of it; or {:g} of what a replay's limit may be",
                   share, coarse.tolerance, coarse.steps, fine.steps, harmless),
       fmt::format("ends of the replay at tolerances {:g} and {:g}; observed orders {} of {}, {}", fine.tolerance,
-                  finest.replay.tolerance, orders, nominal_order, ladder.asymptotic ? "asymptotic" : "not asymptotic"),
+                  finest.replay.tolerance, orders.empty() ? "none" : orders, nominal_order,
+                  ladder.asymptotic ? "asymptotic" : "not asymptotic"),
       "a coarser tolerance, or rounding, moves the end by as much");
   if (check.verdict == Verdict::fail && ladder.passes_knots)
     check =
@@ -123,13 +127,13 @@ std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& fines
                                const Units& units) {
   if (ladder.rungs.size() < 2) return {notMade("integration.ladder", "m", "no ladder was climbed")};
   if (!finest.replay.gave_up.empty())
-    return {notClimbed(finest.replay.too_long, "the judged replay gave up: " + finest.replay.gave_up)};
-  if (finest.replay.left_path) return {notMade("integration.ladder", "m", "the judged replay left the path")};
+    return notClimbed(finest.replay.too_long, "the judged replay gave up: " + finest.replay.gave_up);
+  if (finest.replay.left_path) return notClimbed(false, "the judged replay left the path");
   if (const Rung* rung = firstThat(ladder.rungs, [](const Rung& each) { return each.left_path; }))
-    return {notClimbed(true, fmt::format("{} at {:g} left the path", name(rung->integrator), rung->tolerance))};
+    return notClimbed(true, fmt::format("{} at {:g} left the path", name(rung->integrator), rung->tolerance));
   if (const Rung* rung = firstThat(ladder.rungs, [](const Rung& each) { return !each.gave_up.empty(); }))
-    return {notClimbed(rung->too_long,
-                       fmt::format("{} at {:g} gave up: {}", name(rung->integrator), rung->tolerance, rung->gave_up))};
+    return notClimbed(rung->too_long,
+                      fmt::format("{} at {:g} gave up: {}", name(rung->integrator), rung->tolerance, rung->gave_up));
   return {judgeConvergence(ladder, finest, position_scale), judgeSecond(ladder, finest, position_scale, units)};
 }
 

@@ -28,14 +28,9 @@ struct Quantity {
 /// The level is measured (RoundingProfile) or derived (rounding_depth).
 std::string basisOf(const Quantity& quantity, Level level) {
   return level == Level::measured
-             ? fmt::format("eps {} x {:g} x the spread measured in turned and rescaled frames{}", quantity.shape,
+             ? fmt::format("eps {} x {:g} x the spread measured over frames and changed inputs{}", quantity.shape,
                            rounding_safety, quantity.further)
              : fmt::format("eps {} x {:g}, what roundings add up to at most", quantity.shape, rounding_depth);
-}
-
-const PointwiseSample& sampleAt(const std::vector<PointwiseSample>& samples, double t) {
-  return *std::find_if(samples.begin(), std::prev(samples.end()),
-                       [t](const PointwiseSample& sample) { return sample.motion.t == t; });
 }
 
 /// Stands for the unit of the machine's efforts; `where` is then a motor.
@@ -58,7 +53,7 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quanti
     of.given = std::max(of.given, deviation.given);
   }
   if (!worst.any) return notMade(quantity.name, quantity.unit, "no instant was compared");
-  const Conditioning& c = sampleAt(samples, worst.shown(of.useful()).t).conditioning;
+  const Conditioning& c = samples[indexFrom(samples, worst.shown(of.useful()).t)].conditioning;
   const std::string basis =
       fmt::format("{}; there kappa(B) = {:.3g}, kappa(legs) = {:.3g}, eps = {:.3g}", basisOf(quantity, level),
                   c.kappa_B, c.kappa_legs, Eigen::NumTraits<double>::epsilon());
@@ -208,7 +203,7 @@ Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::ve
       {"reactions.pointwise", "N", size}, worst, units,
       {fmt::format(
            "eps (kappa(B)^2 kappa(legs) x || |T|' |w| || / length + largest mass x the acceleration's) x {:g} x "
-           "the spread measured in turned and rescaled frames",
+           "the spread measured over frames and changed inputs",
            rounding_safety),
        fmt::format("forces, and moments over the machine's length, at all joints against Simbody's mobilizer and "
                    "constraint reactions, at {} instants",

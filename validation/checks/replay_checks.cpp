@@ -154,7 +154,7 @@ Check judgeOrder(const std::vector<double>& orders) {
       "as far as steps that have not vanished leave it open; it fails where the shortest {} stretches agree to {:g}",
       settled_over, settled);
   if (orders.empty())
-    return notJudgeable(Reason::limit_useless, check, std::nan(""), largest_shortfall, "", basis,
+    return notJudgeable(Reason::not_covered, check, std::nan(""), largest_shortfall, "", basis,
                         "no stretch of the motion is between rounding and steps too long to show an order");
   const double order = bestOrder(orders), shortfall = std::max(0.0, nominal_order - order);
   const std::string why = fmt::format(

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "model/instants.h"
+#include "validation/checks/judges.h"
 #include "validation/verdict/effort_words.h"
 
 namespace ursula {
@@ -67,7 +68,7 @@ double driftOf(const Evidence& evidence, double size) {
   });
 }
 
-/// The largest effort of the whole motion, in natural units; it is the same for all subjects and instants.
+/// The largest effort of the whole motion, in the scenario's units; it is the same for all subjects and instants.
 double largestEffort(const Scenario& scenario) {
   constexpr int instants = 2001;
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);
@@ -108,11 +109,11 @@ void requireTellingTolerance(const Scenario& scenario) {
   const double allowed = scenario.tolerance->relative * largest + scenario.tolerance->absolute;
   if (!(largest > 0) || allowed < largest) return;
   const char* unit = effortsOf(*scenario.manipulator).unit;
-  throw ScenarioError(inEffortWords(
-      effortNoun(scenario.manipulator->motors()),
-      fmt::format("{}: error: at a tolerance of {:.6g} {} torques of zero would pass, because the largest effort of "
-                  "the motion is {:.6g} {}; expected a smaller one, or --any-tolerance to accept it",
-                  scenario.name, allowed, unit, largest, unit)));
+  const std::string noun = effortNoun(scenario.manipulator->motors());
+  throw ScenarioError(
+      fmt::format("{}: error: at a tolerance of {:.6g} {} {}s of zero would pass, because the largest {} of the "
+                  "motion is {:.6g} {}; expected a smaller one, or --any-tolerance to accept it",
+                  scenario.name, allowed, unit, noun, noun, largest, unit));
 }
 
 void judgeByTolerance(const Scenario& scenario, double between, ValidationResult& result) {
@@ -134,6 +135,12 @@ void judgeByTolerance(const Scenario& scenario, double between, ValidationResult
     check.reason = Reason::reported;
     check.why = "reported, not judged: where a tolerance is given, only the torques are judged. " + check.why;
   }
+}
+
+void conclude(const Scenario& scenario, const SubjectHas& has, double between, ValidationResult& result) {
+  listEveryCheck(scenario, has, result);
+  judgeByTolerance(scenario, between, result);
+  judgeByUser(scenario.acceptance, result);
 }
 
 }  // namespace ursula

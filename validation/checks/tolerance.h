@@ -28,6 +28,10 @@ std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const s
 /// the tolerance, the uncovered part stays inconclusive.
 void judgeByTolerance(const Scenario& scenario, double between, ValidationResult& result);
 
+/// Lists every check, applies the user's tolerance and limits, and sets the verdict. `between` is that of
+/// judgeByTolerance.
+void conclude(const Scenario& scenario, const SubjectHas& has, double between, ValidationResult& result);
+
 /// Throws ScenarioError if zero torques would pass at the scenario's tolerance, unless it is `any`.
 void requireTellingTolerance(const Scenario& scenario);
 

@@ -156,7 +156,7 @@ Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::
   sortByTime(instants);
   const char* other = subject.formulation == Formulation::noc ? "those of the fast kernels" : "the NOC's";
   return checkOf(comparison,
-                 fmt::format("torques against {}, at {} instants between the samples", other, count + count / 4),
+                 fmt::format("torques against {}, at {} instants between the samples", other, instants.size()),
                  widestGap(instants, duration), samples, units);
 }
 

@@ -122,6 +122,12 @@ void planReplays(Evidence& out) {
 
 }  // namespace
 
+SubjectHas::SubjectHas(const Subject& subject)
+    : kinematics(static_cast<bool>(subject.kinematics)),
+      direct_dynamics(static_cast<bool>(subject.accelerations)),
+      complement(static_cast<bool>(subject.complement)),
+      other_machines(static_cast<bool>(subject.rebuilt)) {}
+
 const std::vector<ReactionSample>& Evidence::reactions() const {
   return has_reactions && own_reactions.empty() ? reference->reactions() : own_reactions;
 }
@@ -141,9 +147,7 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
   out.reference = &reference;
   out.right = right;
   out.fault = fault;
-  out.has.kinematics = static_cast<bool>(subject.kinematics);
-  out.has.direct_dynamics = static_cast<bool>(subject.accelerations);
-  out.has.other_machines = static_cast<bool>(subject.rebuilt);
+  out.has = SubjectHas(subject);
   out.has.left_out_ladder = !experiments.ladder;
   out.has.left_out_reactions = !experiments.reactions;
   try {

@@ -27,13 +27,18 @@ namespace ursula {
 /// What a subject and its validation offer beside torques.
 struct SubjectHas {
   bool any_instant = true;  ///< torques at any instant, not only those of a file
-  bool kinematics = true, direct_dynamics = true, other_machines = true;
+  bool kinematics = true, direct_dynamics = true, complement = true, other_machines = true;
   bool left_out_ladder = false, left_out_reactions = false;  ///< by the caller's options
+  bool left_out_replays = false;                             ///< and all else that the samples alone do not need
   std::string out_of_time;  ///< why experiments are missing, if time ran out; else empty
+
+  SubjectHas() = default;
+  explicit SubjectHas(const Subject& subject);
 };
 
 /// The computed results for one subject on one scenario, in the scenario's natural units. Experiments, which judge
-/// nothing, fill it once; parts without an experiment stay empty.
+/// nothing, fill it; parts without an experiment stay empty. A failed check's second look refines windows and ladder,
+/// and what is judged may be released.
 struct Evidence {
   const Scenario* given = nullptr;               ///< in SI, as the caller gave it
   FrameChange natural;                           ///< of `given`
@@ -66,7 +71,7 @@ struct Evidence {
   double replay_bound = std::numeric_limits<double>::quiet_NaN();  ///< the limit, m, if it prevents the replay
 
   const Units& units() const { return natural.units; }
-  /// The reference's reactions, of the right solver; none without the experiment.
+  /// The subject's own reactions if it has any, otherwise the right solver's; none without the experiment.
   const std::vector<ReactionSample>& reactions() const;
   /// Whether the subject answered at every sample.
   bool answered() const;

@@ -83,11 +83,9 @@ class Residual {
   explicit Residual(const std::vector<PointwiseSample>& samples) : samples_(samples) {}
 
   Vector6d operator()(double t) const {
-    const auto after = std::lower_bound(samples_.begin(), samples_.end(), t,
-                                        [](const PointwiseSample& each, double x) { return each.motion.t < x; });
-    if (after == samples_.begin()) return of(*after);
-    if (after == samples_.end()) return of(samples_.back());
-    const PointwiseSample &a = *(after - 1), &b = *after;
+    const std::size_t after = indexFrom(samples_, t);
+    if (after == 0 || samples_[after].motion.t < t) return of(samples_[after]);
+    const PointwiseSample &a = samples_[after - 1], &b = samples_[after];
     const double s = (t - a.motion.t) / (b.motion.t - a.motion.t);
     return (1 - s) * of(a) + s * of(b);
   }
@@ -185,13 +183,14 @@ std::array<std::vector<double>, 8> curveOf(const Tracks& tracks, const std::vect
 }
 
 ErrorBudget attributed(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
-                       const WindowedReplay& window, const Amplification& amplification, const ReplayPlan& plan) {
+                       const WindowedReplay& window, const Amplification& amplification, const ReplayPlan& plan,
+                       int threads) {
   std::vector<FrameChange> from = {FrameChange(*scenario.manipulator)};
   for (unsigned k = 0; k < frame_changes; ++k)
     from.push_back(randomFrameChange(k + 101, amplification.length(), *scenario.manipulator));
   std::mutex asking;
   std::vector<Track> seen(from.size());
-  inParallel(static_cast<int>(from.size()), static_cast<int>(from.size()), [&](int k) {
+  inParallel(threads, static_cast<int>(from.size()), [&](int k) {
     const auto index = static_cast<std::size_t>(k);
     seen[index] = projected(scenario, plan, window, from[index], asking);
   });
@@ -224,11 +223,11 @@ double ErrorBudget::uncertainty() const {
 
 ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
                       const std::vector<WindowedReplay>& windows, const Amplification* amplification,
-                      const ReplayPlan& plan) {
+                      const ReplayPlan& plan, int threads) {
   const WindowedReplay* window = worstWindow(windows);
   if (window == nullptr || amplification == nullptr) return {};
   try {
-    return attributed(scenario, samples, *window, *amplification, plan);
+    return attributed(scenario, samples, *window, *amplification, plan, threads);
   } catch (const OutOfTime&) {
     return {};
   }

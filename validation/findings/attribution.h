@@ -47,7 +47,7 @@ struct ErrorBudget {
 /// Empty without a replay, or if the scenario's time is up, because it decides nothing.
 ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
                       const std::vector<WindowedReplay>& windows, const Amplification* amplification,
-                      const ReplayPlan& plan);
+                      const ReplayPlan& plan, int threads);
 
 /// Adds the findings, and `along` as a curve. Amplification dominates if a replay's limit, not its error, prevents a
 /// verdict. `rest` is what no measured source explains.

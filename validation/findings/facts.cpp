@@ -8,6 +8,7 @@
 #include "nocsolver/fast/instruction_set.h"
 #include "validation/findings/findings.h"
 #include "validation/replay/replay.h"
+#include "validation/verdict/effort_words.h"
 #include "validation/verdict/worst_share.h"
 
 namespace ursula {
@@ -108,6 +109,7 @@ ValidationResult emptyResult(const Scenario& scenario, const JudgedSubject& subj
   result.scenario = scenario.name;
   result.subject = subject;
   result.asked = std::make_shared<const Scenario>(scenario);
+  result.effort = effortNoun(scenario.manipulator->motors());
   result.provenance = {{"scenario file", scenario.file.filename().string()},
                        {"scenario sha1", sha1(scenario.text)},
                        {"subject", subject.name},

@@ -33,7 +33,7 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
 ValidationResult emptyResult(const Scenario& scenario, const JudgedSubject& subject);
 
 /// Commanded and simulated motion, joint motion, efforts and errors at the instants of `samples`, with the columns of
-/// interface.md. It has only joints that the legs have, and one effort per motor.
+/// docs/csv.md. It has only joints that the legs have, and one effort per motor.
 TimeSeries validationSeries(const Manipulator& machine, const std::vector<PointwiseSample>& samples,
                             const std::vector<WindowedReplay>& windows, const FrameChange& from = {});
 

@@ -255,7 +255,8 @@ std::string causeOfRounding(const Conditioning& at, Rounded quantity) {
   const double platform = at.compliance * at.largest_mass, link = at.leg_compliance * at.largest_mass;
   const double largest = std::max({at.weight_ratio, at.kappa_B, at.kappa_legs, platform, link});
   if (largest == at.weight_ratio)
-    return fmt::format("the forces that close the loops are {:.2g} times the platform's weight", at.weight_ratio);
+    return fmt::format("the forces that close the loops are {:.2g} times the platform's weight and inertia force",
+                       at.weight_ratio);
   if (largest == platform)
     return fmt::format(
         "at its joints the platform gives way {:.2g} times as easily as the heaviest body's mass: its mass or moments "

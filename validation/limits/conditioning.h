@@ -98,7 +98,7 @@ struct Conditioning {
 
   /// The rounding of ‖D T‖ over ‖D‖‖T‖; it is derived, not measured.
   double complementRounding() const;
-  /// Rounding of a torque in either formulation, N·m.
+  /// Bound of the difference of a torque by rounding in both formulations, N·m.
   double torqueRounding() const { return rounding(Rounded::torque); }
   /// Rounding of the platform's acceleration in Simbody under torques, including the torques' own rounding, m/s².
   double accelerationRounding() const { return rounding(Rounded::acceleration); }

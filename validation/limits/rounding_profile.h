@@ -9,9 +9,10 @@
 
 namespace ursula {
 
-/// The measured rounding of every formulation along one scenario. The same instants are evaluated in several changes of
-/// frame (frame_change.h): the same physics with other roundings. The spread of the results is the formulations' noise.
-/// A model error is the same in every change of frame, so it does not enter; neither does the subject.
+/// The measured rounding of every formulation along one scenario. The engines are evaluated in several changes of frame
+/// (frame_change.h), the NOC on inputs changed by one rounding (solver_rounding.h): the same physics with other
+/// roundings. The spread of the results is the formulations' noise. A model error is the same in all of them, so it
+/// does not enter; neither does the subject.
 ///
 /// Some instants are measured, in units of the derived shape, which extends the level to the instants between. A level
 /// is a floor plus safety × the largest spread at the five nearest instants.
@@ -61,9 +62,9 @@ Vector6d otherTorques(const Vector6d& torques);
 /// A sufficient number of instants for a run that is judged at `samples` instants.
 int profileInstants(int samples);
 
-/// Factor on a measured spread. The spread is the largest of some 20 differences; a limit must hold for some 10,000.
-/// For normal deviates the ratio is below 3 (Cramér, Mathematical Methods of Statistics, 1946, sect. 28.6); the rest
-/// covers other distributions. Over 5,000 random machines the largest error used about a third of its limit.
+/// Factor on a measured spread. The spread is the largest of some ten to forty differences; a limit must hold for some
+/// 10,000. For normal deviates the ratio is below 3 (Cramér, Mathematical Methods of Statistics, 1946, sect. 28.6); the
+/// rest covers other distributions. Over 5,000 random machines the largest error used about a third of its limit.
 constexpr double rounding_safety = 10;
 
 /// The least level, in case all frames round equally and show no spread. The shape is a worst case, and rounding of

@@ -1,27 +1,10 @@
 #pragma once
 
-#include <memory>
-#include <mutex>
 #include <vector>
 
 #include "engines/simbody/simbody_loop.h"
 
 namespace ursula {
-
-/// A value that the first requesting thread computes while others wait. If the computation throws, the next one tries.
-template <class T>
-class Lazy {
- public:
-  template <class Make>
-  const T& get(const Make& make) const {
-    std::call_once(once_, [&] { value_.reset(new T(make())); });  // in place, so T need not be movable
-    return *value_;
-  }
-
- private:
-  mutable std::once_flag once_;
-  mutable std::unique_ptr<const T> value_;
-};
 
 /// Records the questions to a history of torques, in order, and its answers. A run that depends on nothing else and
 /// gets bitwise equal answers ends equally, so it need not be repeated.

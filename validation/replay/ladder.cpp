@@ -172,13 +172,6 @@ Ladder replayLadder(const Scenario& scenario, const SimbodyLoop::TorqueHistory& 
     ladder.observed_orders.push_back(order(ladder.rungs[k], ladder.rungs[k + 1]));
   ladder.asymptotic = std::all_of(ladder.observed_orders.begin(), ladder.observed_orders.end(),
                                   [](double p) { return std::abs(p - nominal_order) <= 2; });
-  // The error is extrapolated (Richardson) with the last observed order; without an asymptotic range it is the last
-  // difference.
-  const Rung& last = ladder.rungs.back();
-  const double ratio = static_cast<double>(finest.replay.accepted) / static_cast<double>(std::max(last.steps, 1L));
-  const double p = ladder.asymptotic ? ladder.observed_orders.back() : 0;
-  ladder.extrapolated = last.distance * std::pow(ratio, -p);
-  ladder.uncertainty = integration_safety * ladder.extrapolated;
   replayBySecondIntegrator(scenario, torques, finest, timed, ladder);
   ladder.passes_knots = allKnots(scenario).size() > most_knots;
   return ladder;

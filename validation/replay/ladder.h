@@ -39,8 +39,6 @@ struct Ladder {
   bool passes_knots = false;            ///< it steps over some knots, so it need not converge
   std::vector<double> observed_orders;  ///< order of the error in the steps between neighbouring rkf78 rungs
   bool asymptotic = false;              ///< both orders within 2 of 8
-  double extrapolated = 0;              ///< estimated integration error of the finest replay at its end, m
-  double uncertainty = 0;               ///< uncertainty of that estimate, m
   AskedTorques asked;                   ///< by all its replays
 };
 

@@ -35,9 +35,6 @@ struct Replay {
   bool too_long = false;          ///< gave up after too many evaluations; the missing part proves nothing
   bool left_path = false;         ///< stopped because P was off by more than the platform's size
   AskedTorques asked;             ///< the only torques used: equal answers give this replay
-
-  double maxPositionError() const;  ///< m
-  double maxRotationError() const;  ///< rad
 };
 
 /// Order of rkf78, which continues with its eighth-order solution.

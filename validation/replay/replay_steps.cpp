@@ -6,29 +6,6 @@
 #include "validation/replay/replay.h"
 
 namespace ursula {
-namespace {
-
-template <class F>
-double maxOver(const std::vector<ReplayStep>& steps, F&& value) {
-  if (steps.empty()) return std::nan("");
-  double largest = 0;
-  for (const ReplayStep& step : steps) {
-    const double v = value(step);
-    if (std::isnan(v)) return v;
-    largest = std::max(largest, v);
-  }
-  return largest;
-}
-
-}  // namespace
-
-double Replay::maxPositionError() const {
-  return maxOver(steps, [](const ReplayStep& step) { return step.position_error.norm(); });
-}
-
-double Replay::maxRotationError() const {
-  return maxOver(steps, [](const ReplayStep& step) { return step.rotation_error.norm(); });
-}
 
 ReplayStep interpolated(const Replay& replay, double t) {
   const std::vector<ReplayStep>& steps = replay.steps;

@@ -247,8 +247,4 @@ std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Ampl
   return replayInWindows(scenario, shorter, planWindows(amplification, shorter));
 }
 
-std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan) {
-  return replayInWindows(scenario, linearised(scenario), plan);
-}
-
 }  // namespace ursula

@@ -57,7 +57,6 @@ IntegrationError closerLook(const Scenario& scenario, const ReplayPlan& plan, co
 /// undecidable.
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Amplification& amplification,
                                             const ReplayPlan& plan);
-std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan);
 
 /// The scenario's tolerance, or a larger one if the loop's derivatives are too noisy. Four stages round in Fehlberg's
 /// error estimate, each with 41/840: together a tenth of the noise. RadauStep's estimate, for a `stiff` replay, is more

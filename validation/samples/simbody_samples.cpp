@@ -89,8 +89,4 @@ std::vector<ReactionSample> runReactions(const Scenario& scenario, const Subject
 template std::vector<ReactionSample> runReactions(const Scenario&, const Subject&, const std::vector<Conditions>&);
 template std::vector<ReactionSample> runReactions(const Scenario&, const Subject&, const std::vector<PointwiseSample>&);
 
-std::vector<ReactionSample> runReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples) {
-  return runReactions(scenario, nocSubject(*scenario.manipulator, scenario.load), samples);
-}
-
 }  // namespace ursula

@@ -35,12 +35,9 @@ struct ReactionSample {
 };
 
 /// The reactions that `subject` computes under its own torques at the motions of `samples`, which may be Conditions or
-/// PointwiseSample.
+/// PointwiseSample. Throws PoseError like the subject.
 template <class Sample>
 std::vector<ReactionSample> runReactions(const Scenario& scenario, const Subject& subject,
                                          const std::vector<Sample>& samples);
-
-/// The NOC's reactions at the motions of `samples`. Throws PoseError like the solver.
-std::vector<ReactionSample> runReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples);
 
 }  // namespace ursula

@@ -37,7 +37,7 @@ struct Answered {
 
 /// The solver under test: a source of torques, and possibly of kinematics. It is called with the commanded motion.
 struct Subject : JudgedSubject {
-  std::function<Vector6d(const Motion<double>&)> torques;            ///< N·m, conjugate to φ̇
+  std::function<Vector6d(const Motion<double>&)> torques;            ///< N·m or N, conjugate to the motors' rates
   std::function<KinematicAnswer(const Motion<double>&)> kinematics;  ///< empty if only torques are judged
   /// [ω̇; p̈] of the platform under torques in the commanded state; empty if the subject lacks direct dynamics.
   std::function<Vector6d(const Motion<double>&, const Vector6d& torques)> accelerations;

@@ -6,8 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include "model/scenario.h"
-
 namespace ursula {
 namespace {
 
@@ -49,11 +47,6 @@ std::string effortNoun(const Motors& motors) {
   return std::any_of(motors.begin(), motors.end(), slides) ? "effort" : "torque";
 }
 
-std::string effortNoun(const ValidationResult& result) {
-  const bool known = result.asked && result.asked->manipulator;
-  return known ? effortNoun(result.asked->manipulator->motors()) : "torque";
-}
-
 std::string inEffortWords(const std::string& noun, const std::string& text) {
   if (noun == "torque") return text;
   std::string out = text;
@@ -66,8 +59,7 @@ std::string inEffortWords(const std::string& noun, const std::string& text) {
 }
 
 void sayEfforts(ValidationResult& result) {
-  const std::string noun = effortNoun(result);
-  const auto say = [&noun](std::string& text) { text = inEffortWords(noun, text); };
+  const auto say = [&result](std::string& text) { text = inEffortWords(result.effort, text); };
   for (Check& check : result.checks) say(check.basis), say(check.why), say(check.off);
   for (Finding& finding : result.findings) say(finding.name), say(finding.words);
   say(result.cause_words.off), say(result.cause_words.cause);

@@ -9,8 +9,6 @@ namespace ursula {
 
 /// Returns the noun for these motors' efforts: "force" if all slide, "effort" if some do, otherwise "torque".
 std::string effortNoun(const Motors& motors);
-/// Returns the noun for the judged machine; "torque" if that is unknown.
-std::string effortNoun(const ValidationResult& result);
 
 /// Rewrites a text about torques with `noun` for the efforts. Names of checks, options, columns and files stay as they
 /// are.

@@ -106,8 +106,8 @@ enum class LimitBy { derived, user };
 /// "derived" or "user".
 const char* name(LimitBy limit_by);
 
-/// One judged statement. It passes exactly if value and limit are finite and `value <= limit`, so NaN never passes.
-/// Both are of the instant nearest to its limit. A user's limit applies to `largest`.
+/// One judged statement. It passes only if value and limit are finite and `value <= limit`, so NaN never passes. Both
+/// are of one instant, which WorstShare::shown chooses. A user's limit applies to `largest`.
 struct Check {
   std::string name;  ///< `group.what`, e.g. "torque.pointwise"
   double value = 0;
@@ -279,6 +279,7 @@ struct ValidationResult {
   CauseWords cause_words;                    ///< empty if no effort is wrong
   std::size_t replay_windows = 0;            ///< number of windows in the replay
   std::optional<EffortDeviation> deviation;  ///< nullopt if no effort was compared
+  std::string effort = "torque";             ///< noun for what the motors exert, see effortNoun
   TimeSeries timeseries;
   std::vector<Curve> curves;
   std::vector<Event> events;              ///< restarts and stops of replays, poses nearest to a limit
