@@ -211,9 +211,7 @@ std::string inWords(const Manipulator& machine) {
 /// The option that takes the driven coordinates of this machine.
 const NumbersOption& optionFor(const Manipulator& machine) {
   const Motors motors = machine.motors();
-  const auto slides = [](const Motor& motor) { return motor.slides(); };
-  if (std::all_of(motors.begin(), motors.end(), slides)) return d_option;
-  return std::none_of(motors.begin(), motors.end(), slides) ? phi_option : coordinates_option;
+  return allSlide(motors) ? d_option : anySlides(motors) ? coordinates_option : phi_option;
 }
 
 /// Refuses an option that does not suit the machine.

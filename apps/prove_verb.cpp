@@ -71,13 +71,6 @@ void printMatrix(const std::vector<DefectOutcome>& outcomes) {
       outcomes.size(), shown, on_one, weakDefects(outcomes));
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 3;
-  std::string out;
-  for (std::size_t k = 0; k < std::min(most, names.size()); ++k) out += (k > 0 ? "; " : "") + names[k];
-  return names.size() > most ? out + fmt::format("; and {} more", names.size() - most) : out;
-}
-
 void printChecks(const std::vector<CheckProof>& checks) {
   fmt::print(
       "Each check, with the defects that it alone catches, and those that it catches first (in the result's "
@@ -85,7 +78,7 @@ void printChecks(const std::vector<CheckProof>& checks) {
   fmt::print("{:<30} {:>5} {:>5}\n", "", "alone", "first");
   for (const CheckProof& proof : checks) {
     fmt::print("{:<30} {:>5} {:>5}  ", proof.check, proof.alone.size(), proof.first.size());
-    fmt::print("{}\n", !isNeeded(proof) ? "NONE" : listed(proof.alone.empty() ? proof.first : proof.alone));
+    fmt::print("{}\n", !isNeeded(proof) ? "NONE" : caughtBy(proof, 3));
   }
   fmt::print("\n{} checks; {} of them catch no defect alone or first\n\n", checks.size(), idleChecks(checks));
 }

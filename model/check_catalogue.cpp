@@ -46,15 +46,8 @@ std::size_t groupOf(const std::string& check) {
 }
 
 const char* name(LimitFrom from) {
-  switch (from) {
-    case LimitFrom::exact:
-      return "exact";
-    case LimitFrom::derived:
-      return "derived";
-    case LimitFrom::measured:
-      break;
-  }
-  return "measured";
+  static constexpr const char* names[] = {"exact", "derived", "measured"};
+  return names[static_cast<std::size_t>(from)];
 }
 
 }  // namespace ursula

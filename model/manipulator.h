@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -78,6 +79,18 @@ struct Motor {
   const char* effortUnit() const { return slides() ? "N" : "Nm"; }
 };
 using Motors = std::array<Motor, motor_count>;
+
+inline bool allSlide(const Motors& motors) {
+  return std::all_of(motors.begin(), motors.end(), [](const Motor& motor) { return motor.slides(); });
+}
+inline bool anySlides(const Motors& motors) {
+  return std::any_of(motors.begin(), motors.end(), [](const Motor& motor) { return motor.slides(); });
+}
+
+/// m (r² 1 − r rᵀ), the inertia of a point mass, kg·m².
+inline Matrix3d pointInertia(double mass, const Vector3d& r) {
+  return mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
+}
 
 struct Platform {
   double mass = 0;                             ///< m, kg

@@ -12,6 +12,13 @@ namespace ursula {
 /// each other has the sign nearer to its predecessor.
 std::vector<Eigen::Vector4d> quaternions(const std::vector<Motion<double>>& motions);
 
+/// Returns the unit quaternion of the same rotation whose first entry other than 0 is positive.
+inline Eigen::Vector4d withPositiveW(const Eigen::Vector4d& q) {
+  for (int k = 0; k < 4; ++k)
+    if (q(k) != 0) return q(k) < 0 ? Eigen::Vector4d(-q) : q;
+  return q;
+}
+
 /// Returns an angle in radians, correctly rounded.
 double radians(double degrees);
 

@@ -53,17 +53,8 @@ std::string inFull(const Check& check) {
 }
 
 const char* sign(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::pass:
-      return "✓";
-    case Verdict::fail:
-      return "✗";
-    case Verdict::inconclusive:
-      return "?";
-    case Verdict::not_applicable:
-      break;
-  }
-  return "–";
+  static constexpr const char* signs[] = {"✓", "✗", "?", "–"};
+  return signs[static_cast<std::size_t>(verdict)];
 }
 
 std::string word(Verdict verdict) {
@@ -97,9 +88,7 @@ int severity(const std::vector<Check>& checks) {
 }
 
 std::string counts(const std::vector<Check>& checks) {
-  const auto passed =
-      std::count_if(checks.begin(), checks.end(), [](const Check& check) { return check.verdict == Verdict::pass; });
-  std::string text = fmt::format("{} of {} passed", passed, checks.size());
+  std::string text = fmt::format("{} of {} passed", countOf(checks, Verdict::pass), checks.size());
   const Check* worst = worstCheck(checks);
   if (severity(checks) == 0 && worst != nullptr && std::isfinite(limitShare(*worst)))
     text += fmt::format(", the closest at {} of its limit", plainNumber(limitShare(*worst), 2));

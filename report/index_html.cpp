@@ -50,8 +50,7 @@ HtmlValue cell(const SuiteEntry& entry, const std::string& name) {
 }
 
 HtmlValue row(const SuiteEntry& entry, const std::vector<std::string>& names) {
-  const auto passed = std::count_if(entry.checks.begin(), entry.checks.end(),
-                                    [](const Check& check) { return check.verdict == Verdict::pass; });
+  const auto passed = countOf(entry.checks, Verdict::pass);
   const Check* worst = worstCheck(entry.checks);
   const bool judged = entry.error.empty();
   const std::string title = worst == nullptr ? "no check was made" : checkTitle(worst->name);

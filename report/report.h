@@ -63,6 +63,8 @@ double limitShare(const Check& check);
 /// The same in words: "is at 0.8 of its limit", "has no value", …
 std::string standing(const Check& check);
 
+std::ptrdiff_t countOf(const std::vector<Check>& checks, Verdict verdict);
+
 /// Returns how many of the checks apply.
 std::ptrdiff_t judgedCount(const std::vector<Check>& checks);
 

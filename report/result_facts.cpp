@@ -126,14 +126,9 @@ double limitAtEnd(const ValidationResult& result, const Check& replay) {
   return replay.value == replay.largest.value ? replay.limit : none;
 }
 
-std::ptrdiff_t countOf(const ValidationResult& result, Verdict verdict) {
-  return std::count_if(result.checks.begin(), result.checks.end(),
-                       [verdict](const Check& check) { return check.verdict == verdict; });
-}
-
 std::string undecided(const ValidationResult& result) {
   const Check* worst = worstCheck(result.checks);
-  const auto count = countOf(result, Verdict::inconclusive);
+  const auto count = countOf(result.checks, Verdict::inconclusive);
   if (worst == nullptr || count == 0) return reason(result.verdict, result.checks);
   return fmt::format("Nothing failed, but {} cannot be judged here: {}.",
                      count == 1 ? "one check" : inWords(static_cast<int>(count)) + " checks", worst->why);
@@ -201,9 +196,9 @@ std::vector<KeyFigure> keyFigures(const ValidationResult& result) {
   const ResultFacts facts = factsOf(result);
   std::vector<KeyFigure> out;
   const auto applicable = judgedCount(result.checks);
-  out.push_back(
-      {"checks passed", fmt::format("{} of {}", countOf(result, Verdict::pass), applicable),
-       fmt::format("{} failed, {} undecided", countOf(result, Verdict::fail), countOf(result, Verdict::inconclusive))});
+  out.push_back({"checks passed", fmt::format("{} of {}", countOf(result.checks, Verdict::pass), applicable),
+                 fmt::format("{} failed, {} undecided", countOf(result.checks, Verdict::fail),
+                             countOf(result.checks, Verdict::inconclusive))});
   if (!std::isnan(facts.replay))
     out.push_back({"off the path", quantity(facts.replay, "m"),
                    std::isnan(facts.replay_limit) ? "" : "limit " + quantity(facts.replay_limit, "m")});

@@ -20,8 +20,7 @@ double rounded(double seconds) { return std::round(seconds * 1000) / 1000; }
 Json checkCounts(const std::vector<Check>& checks) {
   Json counts = Json::object();
   for (const Verdict verdict : {Verdict::pass, Verdict::fail, Verdict::inconclusive, Verdict::not_applicable})
-    counts[name(verdict)] =
-        std::count_if(checks.begin(), checks.end(), [verdict](const Check& check) { return check.verdict == verdict; });
+    counts[name(verdict)] = countOf(checks, verdict);
   return counts;
 }
 

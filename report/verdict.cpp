@@ -12,17 +12,8 @@ namespace ursula {
 namespace {
 
 int severity(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::fail:
-      return 3;
-    case Verdict::inconclusive:
-      return 2;
-    case Verdict::pass:
-      return 1;
-    case Verdict::not_applicable:
-      break;
-  }
-  return 0;
+  static constexpr int severities[] = {1, 3, 2, 0};
+  return severities[static_cast<std::size_t>(verdict)];
 }
 
 // A number beyond its limit comes before a missing number, which is often only its consequence.
@@ -67,12 +58,16 @@ bool onlyFastFails(const std::vector<Check>& checks) {
                      [](const Check& check) { return check.verdict != Verdict::fail || isOf(check, "fast"); });
 }
 
+std::ptrdiff_t countOf(const std::vector<Check>& checks, Verdict verdict) {
+  return std::count_if(checks.begin(), checks.end(),
+                       [verdict](const Check& check) { return check.verdict == verdict; });
+}
+
 std::string reason(Verdict verdict, const std::vector<Check>& checks) {
   if (checks.empty()) return "No check was made.";
   const Check& worst = *worstCheck(checks);
   const auto total = judgedCount(checks);
-  const auto count =
-      std::count_if(checks.begin(), checks.end(), [verdict](const Check& check) { return check.verdict == verdict; });
+  const auto count = countOf(checks, verdict);
   // A caller may set a worse verdict than its checks; then they are not the reason.
   if (worst.verdict != verdict) return fmt::format("{} as a whole, for a reason beyond its checks.", name(verdict));
   switch (verdict) {

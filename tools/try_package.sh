@@ -16,7 +16,12 @@ suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
 mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' "Codename: $suite" | head -n 1)
 [[ -n $mirror ]] || { echo "try_package: apt knows no mirror of $suite; apt-get update?" >&2; exit 2; }
 
-debootstrap --variant=minbase "$suite" "$root" "$mirror" >"$root.log" 2>&1 || { tail -n 20 "$root.log" >&2; exit 77; }
+# The system is thrown away, so its packages need not survive a loss of power.
+{
+  debootstrap --foreign --variant=minbase "$suite" "$root" "$mirror" &&
+    mkdir -p "$root/etc/dpkg/dpkg.cfg.d" && echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe-io" &&
+    chroot "$root" /debootstrap/debootstrap --second-stage
+} >"$root.log" 2>&1 || { tail -n 20 "$root.log" >&2; exit 77; }
 rm -f "$root.log"
 
 # The new system uses the same mirrors, keys and certificates.

@@ -36,9 +36,6 @@ struct Group {
 /// Throws ImportError if a part of the group has no gravity.
 void requireWeight(const Group& group);
 
-/// Returns the tensor of a point mass at `r` about the origin: m (rᵀr 1 − r rᵀ).
-Matrix3d pointInertia(double mass, const Vector3d& r);
-
 /// The machine's rigid bodies. Only moving joints remain between them.
 struct Groups {
   std::vector<Group> groups;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/text.h"
+#include "model/manipulator.h"
 
 namespace ursula::exchange {
 namespace {
@@ -26,10 +27,6 @@ void refuseJoint(const GraphJoint& joint, const std::string& what) {
 
 void requireWeight(const Group& group) {
   if (group.weightless) refuseBody(group, " has its gravity switched off, which a scenario has no key for");
-}
-
-Matrix3d pointInertia(double mass, const Vector3d& r) {
-  return mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
 }
 
 Matrix3d Group::inertiaAbout(const Vector3d& point) const {

@@ -139,9 +139,7 @@ UnnormalisedMachine unitBodies(UnnormalisedMachine machine) {
   return machine;
 }
 
-Matrix3d about(double mass, const Vector3d& r, const Matrix3d& I) {
-  return I + mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
-}
+Matrix3d about(double mass, const Vector3d& r, const Matrix3d& I) { return I + pointInertia(mass, r); }
 
 /// Replaces mass centres by first moments, and inertias by those about P and the links' first ends. Efforts are linear
 /// in these.

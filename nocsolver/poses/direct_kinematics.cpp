@@ -7,6 +7,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "model/quaternions.h"
 #include "nocsolver/poses/direct_kinematics_parts.h"
 #include "nocsolver/poses/tracking.h"
 
@@ -36,12 +37,6 @@ std::string describe(const std::string& what, double measure, double bound) {
 
 void require(double measure, const char* what) {
   if (!(measure > smallest_ratio)) throw UndeterminedPose(what, measure, smallest_ratio);
-}
-
-Eigen::Vector4d withPositiveW(const Eigen::Vector4d& q) {
-  for (int k = 0; k < 4; ++k)
-    if (q(k) != 0) return q(k) < 0 ? Eigen::Vector4d(-q) : q;
-  return q;
 }
 
 double widened(double worst, double error) { return error <= worst ? worst : error; }  // keeps a NaN

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "model/quaternions.h"
 #include "nocsolver/legs/fixed_frame.h"
 #include "nocsolver/poses/direct_kinematics.h"
 #include "nocsolver/poses/ups_poses_parts.h"
@@ -63,12 +64,6 @@ struct Centred {
       throw UndeterminedPose("joints too close for legs so long, product of their spreads", spread, least);
   }
 };
-
-Eigen::Vector4d withPositiveW(const Eigen::Vector4d& q) {
-  for (int k = 0; k < 4; ++k)
-    if (q(k) != 0) return q(k) < 0 ? Eigen::Vector4d(-q) : q;
-  return q;
-}
 
 bool listedBefore(const UpsPose& a, const UpsPose& b) {
   const auto key = [](const UpsPose& pose) {

@@ -99,15 +99,8 @@ nlohmann::ordered_json effectJson(const AuditEffect& effect) {
 }
 
 const char* name(AuditRow::Kind kind) {
-  switch (kind) {
-    case AuditRow::Kind::holds:
-      return "holds";
-    case AuditRow::Kind::fails:
-      return "fails";
-    case AuditRow::Kind::misprint:
-      break;
-  }
-  return "misprint";
+  static constexpr const char* names[] = {"holds", "fails", "misprint"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace

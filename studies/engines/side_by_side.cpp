@@ -176,7 +176,7 @@ TimeSteppingResult moveInTime(const LoopEngine& engine, const Rigidity& rigidity
 class Asking {
  public:
   Asking(const Scenario& scenario, const SideBySideOptions& options)
-      : scenario_(scenario), options_(options), reference_(scenario) {
+      : scenario_(scenario), reference_(scenario) {
     const double duration = scenario.trajectory->duration();
     for (int k = 0; k < options.samples; ++k) instants_.push_back(reference_.at(duration * k / (options.samples - 1)));
     scale_ = scaleOf(instants_, scenario.manipulator->motors());
@@ -214,7 +214,6 @@ class Asking {
 
  private:
   const Scenario& scenario_;
-  const SideBySideOptions& options_;
   EngineReference reference_;
   Instants instants_;
   Scale scale_;
@@ -251,11 +250,9 @@ SideBySide engineSideBySide(const Scenario& scenario, const SideBySideOptions& o
     if (wanted) (kind.available() ? asked : out.missing).push_back(&kind);
   }
   Asking asking(scenario, options);
-  const Motors& motors = scenario.manipulator->motors();
   out.scenario = scenario.name;
   out.instants = options.samples;
-  const auto slides = [](const Motor& motor) { return motor.slides(); };
-  const bool all_slide = std::all_of(motors.begin(), motors.end(), slides);
+  const bool all_slide = allSlide(scenario.manipulator->motors());
   out.largest_effort = all_slide ? asking.scale().force : asking.scale().torque;
   out.unit = all_slide ? "N" : "N m";
   if (!all_slide) out.largest_force = asking.scale().force;

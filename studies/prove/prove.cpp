@@ -139,6 +139,13 @@ int weakDefects(const std::vector<DefectOutcome>& outcomes) {
   }));
 }
 
+std::string caughtBy(const CheckProof& proof, std::size_t most) {
+  const std::vector<std::string>& names = proof.alone.empty() ? proof.first : proof.alone;
+  std::string out;
+  for (std::size_t k = 0; k < std::min(most, names.size()); ++k) out += (k > 0 ? "; " : "") + names[k];
+  return names.size() > most ? out + fmt::format("; and {} more", names.size() - most) : out;
+}
+
 int idleChecks(const std::vector<CheckProof>& checks) {
   return static_cast<int>(
       std::count_if(checks.begin(), checks.end(), [](const CheckProof& proof) { return !isNeeded(proof); }));

@@ -78,6 +78,10 @@ int weakDefects(const std::vector<DefectOutcome>& outcomes);
 /// Returns whether the check catches a defect alone or first.
 inline bool isNeeded(const CheckProof& proof) { return !proof.alone.empty() || !proof.first.empty(); }
 
+/// Returns the defects that the check catches alone, else those that it catches first; of more than `most`, their
+/// number.
+std::string caughtBy(const CheckProof& proof, std::size_t most);
+
 /// Returns the number of checks that are not needed, because earlier ones catch everything that they do.
 int idleChecks(const std::vector<CheckProof>& checks);
 

@@ -61,13 +61,6 @@ std::string matrix(const std::vector<DefectOutcome>& outcomes) {
   return rendered(prove_matrix_html, {{"checks", listOf(checks, head)}, {"rows", rows}}) + "\n";
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 4;
-  std::string out;
-  for (std::size_t k = 0; k < std::min(most, names.size()); ++k) out += (k > 0 ? "; " : "") + names[k];
-  return names.size() > most ? out + fmt::format("; and {} more", names.size() - most) : out;
-}
-
 HtmlValue checkRowOf(const CheckProof& proof) {
   return {{"verdict", name(isNeeded(proof) ? Verdict::pass : Verdict::fail)},
           {"sign", isNeeded(proof) ? "✓" : "✗"},
@@ -76,7 +69,7 @@ HtmlValue checkRowOf(const CheckProof& proof) {
           {"check", proof.check},
           {"alone", proof.alone.size()},
           {"first", proof.first.size()},
-          {"examples", listed(proof.alone.empty() ? proof.first : proof.alone)}};
+          {"examples", caughtBy(proof, 4)}};
 }
 
 HtmlValue kindRow(const SensitivityGroup& group) {

@@ -1,7 +1,6 @@
 // Input that is endless, too deep, too long or no text is refused before it is read or parsed, with its place and its
 // bound.
 
-#include <gmock/gmock.h>
 #include <sys/stat.h>
 
 #include <fstream>
@@ -15,15 +14,10 @@
 #include "model/scenario.h"
 #include "tests/base/temporary_folder.h"
 #include "tests/model/refusals.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::AllOf;
-using testing::EndsWith;
-using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
 
 std::string repeated(const std::string& piece, std::size_t count) {
   std::string out;

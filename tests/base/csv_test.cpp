@@ -1,20 +1,15 @@
 #include "base/csv.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "tests/base/temporary_folder.h"
 #include "tests/model/refusals.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::ElementsAre;
-using testing::EndsWith;
-using testing::StartsWith;
 
 TEST(Csv, readsNamesColumnsAndLines) {
   const CsvTable table = parseCsv("t_s,tau_1_Nm\n0,1.5\n0.5,-2e3\n", "torques.csv");

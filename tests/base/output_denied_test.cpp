@@ -1,6 +1,5 @@
 // A folder of results on a full disk, at a mount point, and where the user may not write.
 
-#include <gmock/gmock.h>
 #include <sys/mount.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,12 +9,12 @@
 #include "base/sha1.h"
 #include "tests/base/output_runs.h"
 #include "tests/model/refusals.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
 using testing::Pair;
 
 /// A small file system, if the machine permits one.

@@ -1,7 +1,6 @@
 // Output folders: as a whole or not at all, whatever happens meanwhile to them or to the folders above.
 
 #include <fcntl.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -16,13 +15,12 @@
 #include "base/sha1.h"
 #include "tests/base/output_runs.h"
 #include "tests/model/refusals.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::Pair;
 
 TEST(OutputFolder, isThereAsAWholeOnceItIsCommitted) {

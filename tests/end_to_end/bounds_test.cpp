@@ -1,22 +1,17 @@
 // Endless, absurd or empty input ends the program at once, and the message names the cause.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "tests/end_to_end/program.h"
 #include "tests/model/scenario_text.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
 
-using testing::AllOf;
 using testing::ContainsRegex;
-using testing::EndsWith;
-using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
 
 constexpr int bad_input = 2, inconclusive = 3;
 

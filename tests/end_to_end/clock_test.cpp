@@ -1,6 +1,5 @@
 // A wall clock that goes back or leaps upsets nothing: newer files are replaced, sweeps go on, time limits hold.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -10,12 +9,12 @@
 
 #include "base/sha1.h"
 #include "tests/end_to_end/quick_runs.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 constexpr const char* shim = "LD_PRELOAD='" URSULA_WORLD_SHIM "' SHIM_CLOCK_STEP=";
 /// Each reading of the wall clock is a day earlier, or later, than the previous one.

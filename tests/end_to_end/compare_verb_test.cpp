@@ -1,14 +1,12 @@
 // `ursula compare` as users call it: the shipped results against a fresh run, chosen columns, JUnit, exit codes.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/end_to_end/program.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 const std::string shipped_results = "'" URSULA_RESULTS "/paper-helix/inverse.csv'";
 

@@ -1,18 +1,15 @@
 // Completions and man page contain what --help lists, verb by verb.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <regex>
 #include <sstream>
 
 #include "tests/end_to_end/program.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 std::vector<std::string> matches(const std::string& text, const std::string& pattern) {
   const std::regex regex(pattern);

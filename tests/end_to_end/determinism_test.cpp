@@ -1,19 +1,18 @@
 // The same input gives the same bytes: again, for any number of --jobs, in another folder, time zone and locale.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <regex>
 
 #include "tests/end_to_end/quick_runs.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
 
 namespace fs = std::filesystem;
 using Files = std::map<std::string, std::string>;
-using testing::HasSubstr;
 
 const std::string random_sweep = massSweep("one.toml", "what = \"inverse\"\ncount = 30\nseed = 1\nsamples = 5\n");
 

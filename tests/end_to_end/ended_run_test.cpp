@@ -1,6 +1,5 @@
 // Runs that end before they are done, lack descriptors or memory of them, or lose their streams.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -9,14 +8,13 @@
 #include "base/sha1.h"
 #include "tests/end_to_end/quick_runs.h"
 #include "tests/end_to_end/running.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
-using testing::HasSubstr;
-using testing::Not;
 
 /// Nearly all time passes before anything is written.
 TEST(EndedRun, ofASignalLeavesNothing) {

@@ -1,16 +1,14 @@
 // `ursula engines`: its output, its files, and its refusals.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "tests/end_to_end/program.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 const std::string quick = "engines '" URSULA_SCENARIOS "/hexaglide.toml' --samples 5 --seconds 0.01 ";
 

@@ -1,6 +1,5 @@
 // `ursula map`: its rows against `ursula inverse`, its picture, and impossible grids.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,11 +8,10 @@
 
 #include "base/csv.h"
 #include "tests/end_to_end/program.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 CsvTable mapOf(const Program& ursula, const std::string& arguments) {
   const UrsulaRun run = ursula("map " + helix + " " + arguments);

@@ -3,20 +3,18 @@
 // The limits are of the address space, because a shell can limit nothing else. Program and libraries alone take some 45
 // MB of it; below that the loader fails before the program starts.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "tests/end_to_end/quick_runs.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::AnyOf;
-using testing::HasSubstr;
-using testing::Not;
 
 constexpr int passed = 0, in_error_of_suite = 1, refused = 2, in_error_of_sweep = 3;
 constexpr int limits[] = {250, 150, 80, 60};  // MB

@@ -1,19 +1,17 @@
 // `ursula init` and `ursula check`, and the errors for an impossible motion.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
 #include "tests/end_to_end/program.h"
 #include "tests/model/scenario_text.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
 
-using testing::AllOf;
 using testing::ContainsRegex;
-using testing::HasSubstr;
 
 TEST(Init, writesAScenarioThatPassesTheCheckAndCanBeComputed) {
   const Program ursula;

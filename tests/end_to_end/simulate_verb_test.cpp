@@ -1,6 +1,5 @@
 // `ursula simulate`: it returns the commanded motion, and reports a motion that does not reach its end.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -10,11 +9,10 @@
 
 #include "base/csv.h"
 #include "tests/end_to_end/program.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 class Simulate : public testing::TestWithParam<std::string> {
  protected:

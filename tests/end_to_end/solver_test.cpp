@@ -1,6 +1,5 @@
 // `ursula validate --solver`: a foreign solver as a process, which is right, wrong, or breaks the protocol.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -9,14 +8,12 @@
 #include <thread>
 
 #include "tests/end_to_end/program.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
 
-using testing::AllOf;
 using testing::ContainsRegex;
-using testing::HasSubstr;
-using testing::StartsWith;
 
 /// The program in a folder with the helix, at fewer instants for speed.
 class SolverRun : public testing::Test {

@@ -1,6 +1,5 @@
 // `ursula inverse` as a stream: bounded memory, the same bytes for any number of threads, rows as raw doubles.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -13,11 +12,10 @@
 
 #include "base/csv.h"
 #include "tests/end_to_end/program.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 const std::string helix_file = URSULA_SCENARIOS "/paper-helix.toml";
 

@@ -1,21 +1,16 @@
 // `ursula validate` on several scenarios, as a user calls it: exit codes, both output streams, and files.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "tests/end_to_end/quick_runs.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
 
-using testing::AllOf;
 using testing::ContainsRegex;
-using testing::EndsWith;
-using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
 
 std::string tooTight(const std::string& name) {
   return quickScenario(name) + "\n[acceptance]\n\"torque.pointwise\" = 1e-30\n";

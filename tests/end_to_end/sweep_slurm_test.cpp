@@ -1,19 +1,14 @@
 // `ursula sweep --slurm` with stand-ins for sbatch and squeue; bash runs its scripts. tests/cluster/ uses a real Slurm.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "tests/end_to_end/program.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
 
 class Slurm : public testing::Test {
  protected:

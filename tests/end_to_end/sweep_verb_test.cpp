@@ -1,6 +1,5 @@
 // `ursula sweep`, called as users call it.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -9,11 +8,10 @@
 
 #include "tests/end_to_end/program.h"
 #include "tests/end_to_end/running.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 const std::string head = "scenario = \"" URSULA_SCENARIOS "/paper-helix.toml\"\n";
 

@@ -1,6 +1,5 @@
 // Options beside the verdict for a person at a terminal: JSON, --quiet, standard input, explanations, the browser.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -10,14 +9,10 @@
 #include "model/check_catalogue.h"
 #include "tests/end_to_end/program.h"
 #include "tests/model/quick_scenario.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
 
 TEST(Terminal, tableListsEveryCheckAndSaysWhatFailed) {
   const Program ursula;

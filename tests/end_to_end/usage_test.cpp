@@ -1,17 +1,15 @@
 // Help and misuse, the same for every verb that the program lists.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <regex>
 #include <sstream>
 
 #include "tests/end_to_end/program.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 /// Returns the verbs listed by --help.
 std::vector<std::string> verbs(const Program& ursula) {

@@ -1,6 +1,5 @@
 // `ursula validate` from the scenario, or a file of torques beside it, to the folder of results, by its exit codes.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -11,11 +10,10 @@
 #include "base/csv.h"
 #include "tests/end_to_end/program.h"
 #include "tests/model/scenario_text.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 TEST(ValidateVerb, passesThePapersHelixAndLeavesAllResults) {
   const Program ursula;
@@ -68,10 +66,6 @@ TEST(ValidateVerb, refusesWhatIsNoScenario) {
                          {"validate none.toml --out dir", "none.toml"},
                          {"validate far.toml --out dir", "is out of reach at t = "}});
 }
-
-using testing::AllOf;
-using testing::Not;
-using testing::StartsWith;
 
 /// Makes a scenario and its results of `ursula inverse`.
 void prepare(const Program& ursula, const std::string& samples) {

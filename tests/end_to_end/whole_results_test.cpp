@@ -2,7 +2,6 @@
 // there.
 
 #include <fcntl.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/file.h>
@@ -18,15 +17,13 @@
 #include "base/sha1.h"
 #include "tests/end_to_end/quick_runs.h"
 #include "tests/end_to_end/running.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
 
 constexpr int inconclusive = 3;
 

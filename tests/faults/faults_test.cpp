@@ -1,7 +1,6 @@
 // The built program, while one writing system call after another fails. Afterwards there are the whole old or the whole
 // new results, and the exit code says which.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
@@ -16,12 +15,12 @@
 #include <vector>
 
 #include "tests/end_to_end/quick_runs.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 struct Call {
   std::string name, path;

@@ -2,8 +2,6 @@
 
 #include "model/manipulator.h"
 
-#include <gmock/gmock.h>
-
 #include <Eigen/Geometry>
 #include <functional>
 #include <limits>
@@ -12,13 +10,13 @@
 #include "model/scenario.h"
 #include "tests/model/refusals.h"
 #include "tests/model/scenario_text.h"
+#include "tests/support/matchers.h"
 #include "tests/support/numbers.h"
 
 namespace ursula {
 namespace {
 
 using testing::FieldsAre;
-using testing::HasSubstr;
 
 ManipulatorParameters good() { return parseScenario(good_scenario, "a.toml").manipulator->parameters(); }
 

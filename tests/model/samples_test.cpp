@@ -1,8 +1,6 @@
 // A sampled motion: derivatives against differences in 50 digits, exact reproduction of a quintic, the order on the
 // helix, and refusals with the CSV's line.
 
-#include <gmock/gmock.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
@@ -12,14 +10,13 @@
 #include "model/trajectories/trajectories.h"
 #include "tests/model/derivatives.h"
 #include "tests/model/refusals.h"
+#include "tests/support/matchers.h"
 #include "tests/support/numbers.h"
 
 namespace ursula {
 namespace {
 
 using testing::FieldsAre;
-using testing::HasSubstr;
-using testing::StartsWith;
 
 std::unique_ptr<Trajectory> helixTrajectory() {
   HelixParameters helix;

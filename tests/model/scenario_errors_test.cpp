@@ -1,7 +1,6 @@
 // Several errors of a scenario at once.
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -12,11 +11,10 @@
 #include "tests/base/temporary_folder.h"
 #include "tests/model/refusals.h"
 #include "tests/model/scenario_text.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 std::string changed(std::initializer_list<std::pair<const char*, const char*>> changes) {
   std::string text = good_scenario;

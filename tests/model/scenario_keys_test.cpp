@@ -2,19 +2,16 @@
 
 #include "model/scenario_keys.h"
 
-#include <gmock/gmock.h>
-
 #include <set>
 
 #include "model/scenario.h"
 #include "tests/base/temporary_folder.h"
 #include "tests/model/refusals.h"
 #include "tests/model/scenario_text.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 const std::string points =
     "points = [{ time = 0, position = [0, 0, 1], orientation = [1, 0, 0, 0] }, { time = 2, position = [0, 0, 1.1], "

@@ -2,20 +2,14 @@
 // changed text marks the place that the message must name. Types, bounds and names of all keys are tried by
 // scenario_keys_test.cpp.
 
-#include <gmock/gmock.h>
-
 #include "model/scenario.h"
 #include "tests/base/temporary_folder.h"
 #include "tests/model/refusals.h"
 #include "tests/model/scenario_text.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::AllOf;
-using testing::EndsWith;
-using testing::HasSubstr;
-using testing::StartsWith;
 
 struct Refusal {
   const char* name;

@@ -1,17 +1,13 @@
 // [trajectory] and [load] of a scenario: the meaning of each kind, and every refusal. An @ marks the place.
 
-#include <gmock/gmock.h>
-
 #include "model/scenario.h"
 #include "tests/base/temporary_folder.h"
 #include "tests/model/refusals.h"
 #include "tests/model/scenario_text.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::EndsWith;
-using testing::HasSubstr;
 
 /// The good scenario with these tables instead of its trajectory.
 std::string with(const std::string& tables) {

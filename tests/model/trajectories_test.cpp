@@ -2,8 +2,6 @@
 
 #include "model/trajectories/trajectories.h"
 
-#include <gmock/gmock.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
@@ -11,13 +9,13 @@
 #include "base/real50.h"
 #include "tests/model/derivatives.h"
 #include "tests/model/refusals.h"
+#include "tests/support/matchers.h"
 #include "tests/support/numbers.h"
 
 namespace ursula {
 namespace {
 
 using testing::FieldsAre;
-using testing::HasSubstr;
 
 Eigen::Vector4d turn(double angle, const Vector3d& axis) {
   const Eigen::Quaterniond q(Eigen::AngleAxisd(angle, axis.normalized()));

@@ -2,19 +2,17 @@
 
 #include "nocsolver/errors.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <optional>
 
 #include "nocsolver/solver.h"
+#include "tests/support/matchers.h"
 #include "tests/support/vectors.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr int odd = 3;  ///< the changed leg, which is leg 4 for people
 constexpr double instant = 1.25;

@@ -2,7 +2,6 @@
 
 #include "report/terminal.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -13,16 +12,11 @@
 #include "report/result_facts.h"
 #include "report/text.h"
 #include "tests/report/report_samples.h"
+#include "tests/support/matchers.h"
 #include "tests/support/numbers.h"
 
 namespace ursula {
 namespace {
-
-using testing::AllOf;
-using testing::EndsWith;
-using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
 
 ValidationResult of(std::vector<Check> checks) {
   ValidationResult result;

@@ -2,19 +2,16 @@
 
 #include "studies/check_scenario/check_scenario.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/model/scenario_text.h"
+#include "tests/support/matchers.h"
 #include "tests/validation/scenario_files.h"
 
 namespace ursula {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::StartsWith;
 
 std::vector<std::string> warningsOf(const std::string& text) { return warnings(parseScenario(text, "a.toml")); }
 

@@ -1,15 +1,13 @@
 // Two histories at different instants: interpolation, open questions, and parts.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "studies/compare/compare.h"
 #include "tests/studies/histories.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 CompareOptions interpolating(double tolerance) {
   CompareOptions options;

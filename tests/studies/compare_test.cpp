@@ -3,7 +3,6 @@
 
 #include "studies/compare/compare.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,14 +11,12 @@
 #include "tests/base/temporary_folder.h"
 #include "tests/model/refusals.h"
 #include "tests/studies/histories.h"
+#include "tests/support/matchers.h"
 #include "tests/support/numbers.h"
 #include "validation/validate.h"
 
 namespace ursula {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 TEST(Compare, aHistoryPassesAgainstItself) {
   const Comparison result = compare(history(t_101), history(t_101), {});

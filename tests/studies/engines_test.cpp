@@ -1,7 +1,6 @@
 // Engines side by side: the exact recipe is right for every kind of leg, the usual calls are not, and the words match
 // the findings.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -13,12 +12,10 @@
 #include "base/csv.h"
 #include "report/quantity.h"
 #include "studies/engines/side_by_side.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
-using testing::Not;
 
 Scenario shipped(const std::string& name) { return readScenario(URSULA_SCENARIOS "/" + name + ".toml"); }
 

@@ -1,17 +1,13 @@
 #include "report/heat_map.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <limits>
 
 #include "report/quantity.h"
+#include "tests/support/matchers.h"
 
 namespace ursula::report {
 namespace {
-
-using testing::HasSubstr;
-using testing::Not;
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 

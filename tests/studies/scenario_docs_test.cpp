@@ -2,7 +2,6 @@
 
 #include "studies/scenario_docs/scenario_docs.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -10,11 +9,10 @@
 #include "model/scenario_keys.h"
 #include "report/result_facts.h"
 #include "tests/base/temporary_folder.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 std::string committed(const std::string& name) {
   return TemporaryFolder::read(std::filesystem::path(URSULA_DOCS) / name);

@@ -2,7 +2,6 @@
 
 #include "studies/suite/suite.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -12,13 +11,12 @@
 #include "tests/base/temporary_folder.h"
 #include "tests/model/quick_scenario.h"
 #include "tests/model/refusals.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
 
 using testing::ContainsRegex;
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 std::vector<SuiteMember> threeScenarios(const TemporaryFolder& folder) {
   return readSuite({folder.write("a.toml", quickScenario("first")), folder.write("b.toml", quickScenario("second")),

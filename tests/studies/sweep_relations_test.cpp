@@ -1,6 +1,5 @@
 // Compares the statistics of a sweep with closed forms: a linear model, the Ishigami function, a grid's exact main
 // effects.
-#include <gmock/gmock.h>
 
 #include <boost/random/sobol.hpp>
 #include <cmath>
@@ -10,13 +9,13 @@
 #include "studies/sweep_report/relations.h"
 #include "studies/sweep_report/sweep_rows.h"
 #include "tests/studies/sweep_databases.h"
+#include "tests/support/matchers.h"
 #include "tests/support/numbers.h"
 
 namespace ursula {
 namespace {
 
 using test::Dice;
-using testing::ElementsAre;
 
 Relation relation(const std::vector<double>& x, const std::vector<double>& y, Classes classes = Classes::quantiles) {
   return relationOf({x, orderOf(x)}, y, ranksOf(y), classes, true);

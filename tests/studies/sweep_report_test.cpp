@@ -1,5 +1,4 @@
 // A sweep's summary, page and table, from databases made here.
-#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "tests/model/refusals.h"
 #include "tests/report/text_parts.h"
 #include "tests/studies/sweep_databases.h"
+#include "tests/support/matchers.h"
 #include "tests/support/numbers.h"
 
 namespace ursula {
@@ -18,10 +18,6 @@ namespace {
 using test::Dice;
 using test::MadeSweep;
 using test::madeSweep;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Not;
 
 SweepSummary summaryOf(const MadeSweep& sweep, const std::string& name) { return summarise(*sweep.written(name)); }
 

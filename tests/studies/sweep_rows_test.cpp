@@ -1,16 +1,14 @@
 #include "studies/sweep_report/sweep_rows.h"
 
-#include <gmock/gmock.h>
-
 #include "studies/sweep_report/sweep_summary.h"
 #include "tests/studies/sweep_databases.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
 
 using test::MadeSweep;
 using test::madeSweep;
-using testing::HasSubstr;
 
 TEST(SweepRows, RefuseADamagedPoint) {
   for (const char* parameters : {"{\"x\":", "[1]", "{\"y\":1}", "{\"x\":\"1\"}"}) {

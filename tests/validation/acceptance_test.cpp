@@ -1,7 +1,6 @@
 // A user's limits apply to the largest value, wherever the value nearest to its derived limit is. They never excuse a
 // check that was unfinished or not made.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "report/report.h"
 #include "report/written_files.h"
+#include "tests/support/matchers.h"
 #include "tests/support/numbers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
@@ -17,9 +17,6 @@
 
 namespace ursula {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
 
 ValidationResult judgedBy(const std::vector<AcceptanceLimit>& acceptance, const std::vector<Check>& checks) {
   ValidationResult result;

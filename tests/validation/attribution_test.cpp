@@ -2,13 +2,13 @@
 
 #include "validation/findings/attribution.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <iostream>
 #include <map>
 
+#include "tests/support/matchers.h"
 #include "tests/support/whole.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
@@ -25,7 +25,6 @@ std::vector<std::pair<std::string, std::string>> texts(const ValidationResult& r
 }
 
 using testing::Contains;
-using testing::HasSubstr;
 using testing::Pair;
 
 using StateFault = std::function<void(double t, std::vector<double>& x)>;

@@ -4,7 +4,6 @@
 #include "validation/checks/judges.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <regex>
 
 #include "nocsolver/errors.h"
+#include "tests/support/matchers.h"
 #include "tests/support/motions.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
@@ -20,8 +20,6 @@
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 /// The helix with its right torques, sampled once for all tests.
 struct RightHelix {

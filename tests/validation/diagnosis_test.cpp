@@ -1,13 +1,13 @@
 // What is said of torques that are wrong: each fault is put into exact ones of the helix, and must be named in words
 // and by the contract's terms.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <optional>
 #include <tuple>
 
+#include "tests/support/matchers.h"
 #include "tests/support/motions.h"
 #include "tests/validation/external_torques.h"
 #include "tests/validation/scenario_files.h"
@@ -15,11 +15,6 @@
 
 namespace ursula {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
 
 Rows ofMachine(const MachineChange& change) { return onHelix().answers(onHelix().solver(change)); }
 

@@ -3,7 +3,6 @@
 
 #include "validation/samples/engines.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "engines/mujoco/mujoco_loop.h"
 #include "model/instants.h"
 #include "nocsolver/errors.h"
+#include "tests/support/matchers.h"
 #include "tests/support/numbers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
@@ -21,8 +21,6 @@
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr int instants = 11;
 constexpr std::size_t twin = 0, maximal = 1, mujoco = 2;  ///< in the table

@@ -2,16 +2,14 @@
 
 #include "validation/validate.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/matchers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/external_torques.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 std::string finding(const ValidationResult& result, const std::string& key) {
   for (const Finding& each : result.findings)

@@ -2,12 +2,12 @@
 
 #include "validation/replay/ladder.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
+#include "tests/support/matchers.h"
 #include "tests/validation/checks.h"
 #include "validation/checks/judges.h"
 #include "validation/findings/findings.h"
@@ -15,8 +15,6 @@
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr double position_scale = 2;
 

@@ -3,12 +3,12 @@
 
 #include "validation/replay/ladder.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
+#include "tests/support/matchers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/judges.h"
@@ -17,8 +17,6 @@
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 /// The paper's helix climbed under a history of torques.
 class Climb {

@@ -2,13 +2,13 @@
 
 #include "validation/outside/outside_solver.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <stdexcept>
 #include <vector>
 
+#include "tests/support/matchers.h"
 #include "tests/support/vectors.h"
 #include "tests/validation/checks.h"
 #include "validation/outside/external_solver.h"
@@ -16,8 +16,6 @@
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 struct Case {
   Scenario scenario = vectorScenario("random-2");

@@ -1,10 +1,10 @@
 // Second looks at values beyond their limits: the measurement there, which no model error can hide behind.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "tests/support/matchers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/judges.h"
@@ -15,8 +15,6 @@
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 class SecondLooks : public testing::TestWithParam<std::string> {
  protected:

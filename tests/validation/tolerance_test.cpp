@@ -1,9 +1,9 @@
 // A user's tolerance judges torques; their effect on the motion is reported.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "report/report.h"
+#include "tests/support/matchers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/external_torques.h"
 #include "tests/validation/scenario_files.h"
@@ -12,9 +12,6 @@
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
-using testing::Not;
 
 constexpr int all_samples = 301;
 

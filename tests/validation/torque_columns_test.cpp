@@ -3,22 +3,16 @@
 
 #include "validation/subject/torque_columns.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "tests/model/refusals.h"
+#include "tests/support/matchers.h"
 #include "validation/subject/torque_file.h"
 
 namespace ursula {
 namespace {
-
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::EndsWith;
-using testing::HasSubstr;
-using testing::StartsWith;
 
 /// t = 0, 0.5, 1.5; torques 1.25 to 6.25, and the same doubled and tripled.
 struct Foreign {

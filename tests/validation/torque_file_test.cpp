@@ -3,18 +3,16 @@
 #include "validation/subject/torque_file.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/csv.h"
 #include "tests/model/refusals.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::ElementsAre;
 
 const std::string header = "t_s,tau_1_Nm,tau_2_Nm,tau_3_Nm,tau_4_Nm,tau_5_Nm,tau_6_Nm\n";
 

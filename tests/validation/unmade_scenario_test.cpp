@@ -1,19 +1,17 @@
 // Every function refuses a scenario without a machine or a motion, such as a moved-from one.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <utility>
 
 #include "tests/model/refusals.h"
+#include "tests/support/matchers.h"
 #include "tests/support/vectors.h"
 #include "validation/outside/outside_solver.h"
 #include "validation/validate.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 void expectRefused(const Scenario& scenario, const char* says) {
   const auto expect = [says](const auto& call) { EXPECT_THAT(refusal<InvalidParameter>(call), HasSubstr(says)); };

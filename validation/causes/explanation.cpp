@@ -13,11 +13,8 @@ namespace {
 
 /// Whether the motion is one pose, held or repeated: too many causes can produce its six numbers.
 bool isOnePose(const TorqueResidual& data) {
-  const Motion<double>& first = data.motions.front();
-  return std::all_of(data.motions.begin(), data.motions.end(), [&](const Motion<double>& each) {
-    return each.p == first.p && each.Q == first.Q && each.p_dot == first.p_dot && each.omega == first.omega &&
-           each.p_ddot == first.p_ddot && each.omega_dot == first.omega_dot;
-  });
+  return std::all_of(data.motions.begin(), data.motions.end(),
+                     [&](const Motion<double>& each) { return sameState(each, data.motions.front()); });
 }
 
 /// Gravity's size and its component are one number. A missing term or a wrong sign is also a number that is 0 or

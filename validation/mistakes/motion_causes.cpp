@@ -168,9 +168,7 @@ void addLoads(TriedCauses& out) {
 
 /// τ + J q̈: an additional inertia on every motor.
 void addMotorInertia(TriedCauses& out) {
-  const Motors& motors = out.machine.motors();
-  const bool slide = std::all_of(motors.begin(), motors.end(), [](const Motor& motor) { return motor.slides(); });
-  const char* unit = slide ? "kg" : "kg m^2";
+  const char* unit = allSlide(out.machine.motors()) ? "kg" : "kg m^2";
   Cause cause;
   cause.solver = [&scenario = out.scenario](double x) {
     const Subject noc = nocSubject(*scenario.manipulator, scenario.load);

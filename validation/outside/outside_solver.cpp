@@ -15,10 +15,7 @@ namespace {
 /// Thrown after the solver has thrown. It is no std::exception, because an experiment turns those into results.
 struct SolverStopped {};
 
-bool same(const Motion<double>& a, const Motion<double>& b) {
-  return a.t == b.t && a.p == b.p && a.Q == b.Q && a.omega == b.omega && a.p_dot == b.p_dot &&
-         a.omega_dot == b.omega_dot && a.p_ddot == b.p_ddot;
-}
+bool same(const Motion<double>& a, const Motion<double>& b) { return a.t == b.t && sameState(a, b); }
 
 /// Asks the solver, remembers its last answers, and stores its exception.
 class Asking {

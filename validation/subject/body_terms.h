@@ -67,11 +67,6 @@ struct MachineTerms {
   Vector6d ofAccelerations(const std::function<Vector3d(const OpenLeg&)>& off) const;
 };
 
-/// m (r² 1 − r rᵀ), the inertia of a point mass.
-inline Matrix3d pointInertia(double mass, const Vector3d& r) {
-  return mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
-}
-
 /// [n; 0] and [0; f].
 Vector6d momentWrench(const Vector3d& n);
 Vector6d forceWrench(const Vector3d& f);

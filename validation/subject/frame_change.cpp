@@ -66,7 +66,7 @@ double Units::of(const std::string& unit) const {
 Efforts effortsOf(const Manipulator& machine) {
   const Motors& motors = machine.motors();
   Efforts out;
-  if (std::all_of(motors.begin(), motors.end(), [](const Motor& motor) { return motor.slides(); })) out.unit = "N";
+  if (allSlide(motors)) out.unit = "N";
   for (std::size_t k = 0; k < motors.size(); ++k) out.leg[k] = motors[k].leg;
   return out;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,8 +44,6 @@ inline std::string effortColumn(const Motors& motors, int k) {
 }
 
 /// "Nm", or "N" if all motors slide, for texts about all of them. A force then counts as a moment at a length of 1 m.
-inline const char* effortSuffix(const Motors& motors) {
-  return std::all_of(motors.begin(), motors.end(), [](const Motor& motor) { return motor.slides(); }) ? "N" : "Nm";
-}
+inline const char* effortSuffix(const Motors& motors) { return allSlide(motors) ? "N" : "Nm"; }
 
 }  // namespace ursula

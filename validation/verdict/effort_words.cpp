@@ -1,6 +1,5 @@
 #include "validation/verdict/effort_words.h"
 
-#include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <string_view>
@@ -42,9 +41,7 @@ void replaceWord(std::string_view word, const std::string& noun, std::string& te
 }  // namespace
 
 std::string effortNoun(const Motors& motors) {
-  const auto slides = [](const Motor& motor) { return motor.slides(); };
-  if (std::all_of(motors.begin(), motors.end(), slides)) return "force";
-  return std::any_of(motors.begin(), motors.end(), slides) ? "effort" : "torque";
+  return allSlide(motors) ? "force" : anySlides(motors) ? "effort" : "torque";
 }
 
 std::string inEffortWords(const std::string& noun, const std::string& text) {

@@ -35,37 +35,14 @@ bool anyIs(const std::vector<Check>& checks, Verdict verdict) {
 bool isOf(const Check& check, const std::string& group) { return check.name.rfind(group + ".", 0) == 0; }
 
 const char* name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::pass:
-      return "pass";
-    case Verdict::fail:
-      return "fail";
-    case Verdict::inconclusive:
-      return "inconclusive";
-    case Verdict::not_applicable:
-      return "not_applicable";
-  }
-  throw std::logic_error("no such verdict");
+  static constexpr const char* names[] = {"pass", "fail", "inconclusive", "not_applicable"};
+  return names[static_cast<std::size_t>(verdict)];
 }
 
 const char* name(Reason reason) {
-  switch (reason) {
-    case Reason::none:
-      return "none";
-    case Reason::limit_useless:
-      return "limit_useless";
-    case Reason::unfinished:
-      return "unfinished";
-    case Reason::not_covered:
-      return "not_covered";
-    case Reason::not_made:
-      return "not_made";
-    case Reason::not_applicable:
-      return "not_applicable";
-    case Reason::reported:
-      return "reported";
-  }
-  throw std::logic_error("no such reason");
+  static constexpr const char* names[] = {"none",     "limit_useless",  "unfinished", "not_covered",
+                                          "not_made", "not_applicable", "reported"};
+  return names[static_cast<std::size_t>(reason)];
 }
 
 const char* name(ErrorSource source) {

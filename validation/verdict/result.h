@@ -73,7 +73,8 @@ struct Scenario;
 struct JudgedValue;
 struct WorstShare;
 
-/// A check that lacks what it needs is `not_applicable`; it neither passes nor fails.
+/// A check that lacks what it needs is `not_applicable`; it neither passes nor fails. Tables of its words have its
+/// order.
 enum class Verdict { pass, fail, inconclusive, not_applicable };
 
 /// "pass", "fail", "inconclusive" or "not_applicable".

@@ -1,4 +1,3 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,11 +9,10 @@
 #include "studies/identify/identify.h"
 #include "tests/studies/identify/paper_machine_log.h"
 #include "tests/studies/identify/random_logs.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 const MeasuredNumber& numberOf(const IdentifyResult& result, const std::string& name) {
   for (const MeasuredNumber& each : result.numbers)

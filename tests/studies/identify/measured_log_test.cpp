@@ -1,4 +1,3 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,11 +8,10 @@
 #include "studies/identify/log_grid.h"
 #include "studies/identify/measured_log.h"
 #include "tests/studies/identify/synthetic_log.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 class MeasuredLogs : public testing::Test {
  protected:

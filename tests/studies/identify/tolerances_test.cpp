@@ -1,15 +1,13 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "model/number_tolerances.h"
 #include "model/scenario_files.h"
 #include "model/scenario_json.h"
 #include "tests/model/scenario_text.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 const char* const mass = "mass = 500.0";
 

@@ -3,19 +3,16 @@
 
 #include "studies/sweep/slurm.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "studies/sweep/merge.h"
 #include "tests/base/temporary_folder.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Not;
 
 SlurmJob job() {
   SlurmJob out;

@@ -1,6 +1,5 @@
 // The content of a sweep's database, and refused databases.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -14,6 +13,7 @@
 #include "tests/base/temporary_folder.h"
 #include "tests/model/refusals.h"
 #include "tests/studies/sweep/small_databases.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
@@ -21,7 +21,6 @@ namespace {
 using test::identity;
 using test::point;
 using test::pointsIn;
-using testing::HasSubstr;
 
 std::string refused(const std::filesystem::path& file, const SweepIdentity& whose = identity()) {
   return refusal<DatabaseError>([&] { SweepDatabase(file, whose); });

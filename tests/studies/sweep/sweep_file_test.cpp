@@ -4,11 +4,10 @@
 
 #include "tests/model/refusals.h"
 #include "tests/studies/sweep/sweeps.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
-
-using testing::HasSubstr;
 
 const std::string mass = vary("manipulator.platform.mass", "uniform = [400.0, 600.0]");
 

@@ -2,7 +2,6 @@
 
 #include "studies/sweep/merge.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
@@ -10,6 +9,7 @@
 #include "tests/base/temporary_folder.h"
 #include "tests/model/refusals.h"
 #include "tests/studies/sweep/small_databases.h"
+#include "tests/support/matchers.h"
 
 namespace ursula {
 namespace {
@@ -18,8 +18,6 @@ using test::identity;
 using test::point;
 using test::pointsIn;
 using test::rowsOf;
-using testing::AllOf;
-using testing::HasSubstr;
 
 TEST(SweepMerge, takesEachPointOnceInAnyOrderAndSaysWhatIsMissing) {
   const TemporaryFolder folder;

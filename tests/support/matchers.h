@@ -1,0 +1,9 @@
+#pragma once
+
+#include <gmock/gmock.h>
+
+namespace ursula {
+
+using testing::AllOf, testing::ElementsAre, testing::EndsWith, testing::HasSubstr, testing::Not, testing::StartsWith;
+
+}  // namespace ursula
