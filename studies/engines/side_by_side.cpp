@@ -175,8 +175,7 @@ TimeSteppingResult moveInTime(const LoopEngine& engine, const Rigidity& rigidity
 /// Asks one engine after another and reports progress.
 class Asking {
  public:
-  Asking(const Scenario& scenario, const SideBySideOptions& options)
-      : scenario_(scenario), reference_(scenario) {
+  Asking(const Scenario& scenario, const SideBySideOptions& options) : scenario_(scenario), reference_(scenario) {
     const double duration = scenario.trajectory->duration();
     for (int k = 0; k < options.samples; ++k) instants_.push_back(reference_.at(duration * k / (options.samples - 1)));
     scale_ = scaleOf(instants_, scenario.manipulator->motors());

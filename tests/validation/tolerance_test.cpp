@@ -202,15 +202,18 @@ TEST(Tolerance, atWhichTorquesOfZeroWouldPassIsRefused) {
 }
 
 TEST(Sentence, saysWhatWouldHaveBeenSeen) {
-  EffortDeviation deviation;
-  deviation.largest_effort = 10;
-  EXPECT_THAT(sentence(deviation), Not(HasSubstr("would have been seen")));
-  deviation.seen = 3e-13;
-  EXPECT_THAT(sentence(deviation), HasSubstr("An error of 3e-13 of the largest torque would have been seen."));
+  ValidationResult result;
+  EXPECT_EQ(deviationSentence(result), "") << "nothing was compared";
+  result.deviation = EffortDeviation();
+  result.deviation->largest_effort = 10;
+  EXPECT_THAT(deviationSentence(result), Not(HasSubstr("would have been seen")));
+  result.deviation->seen = 3e-13;
+  EXPECT_THAT(deviationSentence(result), HasSubstr("An error of 3e-13 of the largest torque would have been seen."));
 }
 
 TEST(Sentence, saysHowRightWhereAndWhatFollows) {
-  EffortDeviation deviation;
+  ValidationResult result;
+  EffortDeviation& deviation = result.deviation.emplace();
   deviation.largest = 7.4;
   deviation.largest_effort = 25066;
   deviation.where = "leg 3";
@@ -218,14 +221,14 @@ TEST(Sentence, saysHowRightWhereAndWhatFollows) {
   deviation.drift = 0.041;
   deviation.duration = 3;
   deviation.length = 1;
-  EXPECT_EQ(sentence(deviation),
+  EXPECT_EQ(deviationSentence(result),
             "Off by at most 0.03 %: the largest deviation is 7.4 N m of 25066 N m, leg 3 at t = 2.97 s; from errors of "
             "this size the open-loop motion would drift by up to 41 mm in 3 s; the smallest --rtol that would pass is "
             "0.00029523.");
   deviation.drift = 2;
-  EXPECT_THAT(sentence(deviation), HasSubstr("may be lost within 3 s"));
+  EXPECT_THAT(deviationSentence(result), HasSubstr("may be lost within 3 s"));
   deviation.drift = std::nan("");
-  EXPECT_THAT(sentence(deviation), Not(HasSubstr("open-loop")));
+  EXPECT_THAT(deviationSentence(result), Not(HasSubstr("open-loop")));
 }
 
 }  // namespace
