@@ -10,7 +10,6 @@
 
 #include "model/instants.h"
 #include "tests/support/vectors.h"
-#include "validation/samples/engines.h"
 #include "validation/samples/pointwise.h"
 #include "validation/subject/subject.h"
 #include "validation/validate.h"
@@ -55,14 +54,6 @@ inline Subject torquesAlone(const Scenario& scenario) {
   subject.accelerations = nullptr;
   subject.rebuilt = nullptr;
   return subject;
-}
-
-/// The further formulations at the samples.
-inline std::vector<EngineSample> runEngines(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
-                                            const RoundingProfile& profile) {
-  std::vector<double> instants;
-  for (const PointwiseSample& sample : samples) instants.push_back(sample.motion.t);
-  return runEngines(engineTorques(scenario, instants), samples, profile);
 }
 
 /// The solver's pointwise samples at equally spaced instants.

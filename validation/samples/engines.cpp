@@ -39,4 +39,9 @@ std::vector<EngineSample> runEngines(const std::vector<EngineTorques>& engines,
   return out;
 }
 
+std::vector<EngineSample> runEngines(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
+                                     const RoundingProfile& profile) {
+  return runEngines(engineTorques(scenario, instantsOf(samples)), samples, profile);
+}
+
 }  // namespace ursula

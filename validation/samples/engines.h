@@ -29,5 +29,8 @@ std::vector<EngineTorques> engineTorques(const Scenario& scenario, const std::ve
 /// Combines the subject's torques with `engines`, which are those at the instants of `samples`.
 std::vector<EngineSample> runEngines(const std::vector<EngineTorques>& engines,
                                      const std::vector<PointwiseSample>& samples, const RoundingProfile& profile);
+/// Computes the further formulations at the instants of `samples`.
+std::vector<EngineSample> runEngines(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
+                                     const RoundingProfile& profile);
 
 }  // namespace ursula

@@ -266,6 +266,13 @@ double largestTorque(const std::vector<PointwiseSample>& samples) {
   return largest;
 }
 
+std::vector<double> instantsOf(const std::vector<PointwiseSample>& samples) {
+  std::vector<double> out;
+  out.reserve(samples.size());
+  for (const PointwiseSample& sample : samples) out.push_back(sample.motion.t);
+  return out;
+}
+
 std::string causeOfRounding(const std::vector<PointwiseSample>& samples, double t, Rounded quantity) {
   return samples.empty() ? "" : causeOfRounding(samples[indexFrom(samples, t)].conditioning, quantity);
 }

@@ -72,6 +72,8 @@ std::size_t indexFrom(const std::vector<PointwiseSample>& samples, double t);
 /// The largest of Simbody's torques, N·m; 0 without samples.
 double largestTorque(const std::vector<PointwiseSample>& samples);
 
+std::vector<double> instantsOf(const std::vector<PointwiseSample>& samples);
+
 /// causeOfRounding at the sample at t, or at the first after it; "" if there is none.
 std::string causeOfRounding(const std::vector<PointwiseSample>& samples, double t, Rounded quantity = Rounded::torque);
 
