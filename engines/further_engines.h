@@ -13,7 +13,6 @@ struct EngineKind {
   const char* check;    ///< name of the check that compares the subject with it
   const char* name;     ///< in a list of formulations: "MuJoCo"
   const char* made_of;  ///< follows "torques against": "MuJoCo's trees, closed by Lagrange multipliers"
-  const char* engine;   ///< formulations of the same engine count as one
   bool (*available)();  ///< whether this build has it
   std::unique_ptr<Engine> (*make)(const Manipulator& manipulator, std::shared_ptr<const Load> load);
 };
@@ -28,11 +27,10 @@ inline bool alwaysAvailable() { return true; }
 /// All further formulations. A new one needs a folder in engines/ and a row.
 inline constexpr std::array further_engines = {
     EngineKind{"torque.twin", "Simbody, tree through leg 1", "Simbody's tree through leg 1, balls at the others",
-               "Simbody", alwaysAvailable, makeSimbodyTree},
+               alwaysAvailable, makeSimbodyTree},
     EngineKind{"torque.maximal", "maximal coordinates",
-               "links and platform in maximal coordinates with Lagrange multipliers", "maximal coordinates",
-               alwaysAvailable, makeMaximalLoop},
-    EngineKind{"torque.mujoco", "MuJoCo", "MuJoCo's trees, closed by Lagrange multipliers", "MuJoCo", mujocoAvailable,
+               "links and platform in maximal coordinates with Lagrange multipliers", alwaysAvailable, makeMaximalLoop},
+    EngineKind{"torque.mujoco", "MuJoCo", "MuJoCo's trees, closed by Lagrange multipliers", mujocoAvailable,
                makeMujocoLoop},
 };
 constexpr std::size_t further_engine_count = further_engines.size();

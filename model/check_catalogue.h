@@ -22,12 +22,6 @@ enum class CheckNeeds {
 /// Checks that answer one question, in the order of reports.
 enum class CheckGroup { motors, fast, replay, kinematics, numerics, input };
 
-/// What a check compares the subject with.
-enum class StandsOn {
-  engine,     ///< Simbody, or the further engine that has the check
-  no_engine,  ///< another formulation of this program, the pose in 50 digits, or a property of the solver itself
-};
-
 /// Where a check's limit comes from if the user gives none.
 enum class LimitFrom {
   exact,     ///< equality, or a theorem
@@ -42,7 +36,9 @@ struct CheckRow {
   const char* unit;
   CheckNeeds needs;
   CheckGroup group;
-  StandsOn stands_on;
+  /// Whose answers it compares with: "Simbody", "MuJoCo", …; null for another formulation of this program, the pose in
+  /// 50 digits, or a property of the solver itself.
+  const char* engine;
   const char* title;
   const char* proves;
   const char* cannot_see;  ///< what it cannot see; empty if there is nothing to say

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string_view>
 
 #include "model/check_catalogue.h"
 #include "model/scenario.h"
 #include "model/trajectories/trajectory_kinds.h"
 #include "report/quantity.h"
 #include "report/report.h"
-#include "validation/checks/families.h"
 #include "validation/verdict/effort_words.h"
 
 namespace ursula::report {
@@ -38,11 +38,12 @@ double largestOf(const TimeSeries& series, const std::string& beginning) {
 void addEngines(const ValidationResult& result, ResultFacts& facts) {
   double worst = none;
   std::set<std::string> engines;
-  for (const auto& [name, engine] : engineChecks()) {
-    const Check* check = find(result, name);
+  for (const CheckRow& row : checkCatalogue()) {
+    const bool of_efforts = std::string_view(row.name).rfind("torque.", 0) == 0 && row.needs != CheckNeeds::torque_file;
+    const Check* check = row.engine != nullptr && of_efforts ? find(result, row.name) : nullptr;
     if (check == nullptr || !std::isfinite(check->largest.value)) continue;
     worst = std::isnan(worst) ? check->largest.value : std::max(worst, check->largest.value);
-    engines.insert(engine);
+    engines.insert(row.engine);
   }
   facts.engines += static_cast<int>(engines.size());
   const double of_engine = largestOf(result.timeseries, "simbody_tau_");

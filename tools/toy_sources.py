@@ -34,7 +34,7 @@ Check judgeToy(const Scenario& scenario) {
         "validation/checks/CMakeLists.txt": [("    torque_between.cpp\n", "    toy_check.cpp\n")],
         "validation/checks/judges.h": [("/// `torque.against_noc`: external", "Check judgeToy(const Scenario& scenario);\n\n")],
         "model/check_rows.cpp": [('      {"motion.load"', """\
-      {"motion.toy", "s", N::nothing, G::input, StandsOn::no_engine, "Toy", "The motion takes some time.", "",
+      {"motion.toy", "s", N::nothing, G::input, nullptr, "Toy", "The motion takes some time.", "",
        LimitFrom::exact, "A duration is positive.", "Give the motion a duration."},
 """)],
         "validation/checks/families.cpp": [('      {"between samples"', """\

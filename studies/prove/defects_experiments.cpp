@@ -7,6 +7,7 @@
 
 #include "engines/further_engines.h"
 #include "studies/prove/defects.h"
+#include "studies/prove/prove.h"
 
 namespace ursula {
 namespace {
@@ -223,7 +224,7 @@ std::vector<Defect> controls() {
                              control(lastStep("last step: no fault", [](State&) {})),
                              control(wrongLadder("ladder: no fault", Integrator::rkf78, [](ReplaySettings&) {}))};
   for (const EngineKind& kind : further_engines)
-    out.push_back(control(engine(std::string(kind.engine) + ": no fault", kind.check, [](ManipulatorParameters&) {})));
+    out.push_back(control(engine(engineOf(kind.check) + ": no fault", kind.check, [](ManipulatorParameters&) {})));
   return out;
 }
 

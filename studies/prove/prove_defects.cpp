@@ -116,10 +116,8 @@ std::vector<CheckProof> proofsOf(const std::vector<Check>& checks, const std::ve
 }  // namespace
 
 std::string engineOf(const std::string& check) {
-  if (const EngineKind* further = furtherEngineOf(check)) return further->engine;
   const CheckRow* row = checkRow(check);
-  if (row != nullptr && row->stands_on == StandsOn::no_engine) return check;
-  return "Simbody";
+  return row == nullptr || row->engine == nullptr ? check : row->engine;
 }
 
 int DefectOutcome::formulations() const {

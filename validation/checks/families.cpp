@@ -178,12 +178,6 @@ const std::vector<CheckFamily>& checkFamilies() {
   return families;
 }
 
-std::vector<std::pair<std::string, std::string>> engineChecks() {
-  std::vector<std::pair<std::string, std::string>> out = {{"torque.pointwise", "Simbody"}};
-  for (const EngineKind& engine : further_engines) out.emplace_back(engine.check, engine.engine);
-  return out;
-}
-
 void checksInSi(const Units& units, std::vector<Check>& checks) {
   for (Check& check : checks) {
     const double unit = units.of(check.unit);

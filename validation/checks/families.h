@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "validation/evidence/evidence.h"
@@ -23,9 +22,6 @@ struct CheckFamily {
 
 /// All families. A new check needs a function, an entry here and a row of checkCatalogue().
 const std::vector<CheckFamily>& checkFamilies();
-
-/// Returns the checks that compare efforts with those of an engine, and the engine of each. Some share one.
-std::vector<std::pair<std::string, std::string>> engineChecks();
 
 /// Converts checks from natural units to SI.
 void checksInSi(const Units& units, std::vector<Check>& checks);
