@@ -56,6 +56,16 @@ TEST(Diagnosis, saysWhichLegsWhenAndHowMuch) {
   EXPECT_THAT(diagnosis.deviation, HasSubstr("within their limits: 1, 3, 4, 5, 6; off in 21 of 61 samples, 34.4 %"));
 }
 
+/// Motors that are off at different instants are off at all of these together.
+TEST(Diagnosis, countsTheInstantsOfAllMotors) {
+  const Diagnosis diagnosis = onHelix().said(onHelix().rightBut([](std::size_t k, Vector6d& tau) {
+    if (k >= 10 && k < 20) tau(0) += 50;
+    if (k >= 30 && k < 45) tau(3) += 50;
+  }));
+  EXPECT_THAT(diagnosis.summary, HasSubstr("25 of 61 instants"));
+  EXPECT_THAT(diagnosis.deviation, HasSubstr("off in 25 of 61 samples"));
+}
+
 struct SaidFault {
   std::string words;
   Rows torques;

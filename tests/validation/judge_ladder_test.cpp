@@ -182,8 +182,12 @@ TEST(JudgeLadder, failsWhereTheJudgedReplayGaveUpOrLeftThePath) {
   WindowedReplay gave_up = madeReplay(), lost = madeReplay();
   gave_up.replay.gave_up = "the step vanished";
   lost.replay.left_path = true;
-  EXPECT_EQ(overall(judgeLadder(madeLadder(), gave_up, position_scale)), Verdict::fail);
-  EXPECT_EQ(overall(judgeLadder(madeLadder(), lost, position_scale)), Verdict::fail);
+  for (const WindowedReplay* judged : {&gave_up, &lost}) {
+    const std::vector<Check> checks = judgeLadder(madeLadder(), *judged, position_scale);
+    EXPECT_EQ(overall(checks), Verdict::fail);
+    EXPECT_EQ(verdictOf(checks, "integration.second"), "not_applicable");
+    EXPECT_THAT(findCheck(checks, "integration.second")->why, HasSubstr("the judged replay"));
+  }
 }
 
 TEST(JudgeLadder, isInconclusiveWhereARungLeftThePath) {

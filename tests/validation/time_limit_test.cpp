@@ -1,7 +1,6 @@
 // A time limit: unreached parts are inconclusive with the reason, the rest is judged, and no number depends on the
 // limit.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -14,6 +13,7 @@
 #include "model/trajectories/trajectories.h"
 #include "report/report.h"
 #include "report/written_files.h"
+#include "tests/support/matchers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/families.h"
@@ -161,6 +161,23 @@ TEST(TimeLimit, judgesNoKernelsThatWereNotAsked) {
   EXPECT_FALSE(fast->applies(evidence));
   evidence.fast.refused = "the pose is singular";
   EXPECT_TRUE(fast->applies(evidence));
+}
+
+/// Before any experiment, all is unfinished but what the scenario or the subject lacks.
+TEST(TimeLimit, saysOfEachCheckWhyItIsMissing) {
+  const Scenario scenario = quick();
+  ValidationOptions options;
+  options.time_limit = none_at_all;
+  Subject torques = nocSubject(*scenario.manipulator, nullptr);
+  const ValidationResult whole = validate(scenario, torques, options);
+  torques.complement = nullptr;
+  const ValidationResult less = validate(scenario, torques, options);
+  for (const char* name : {"complement.rank", "reactions.pointwise", "integration.second", "replay.position"}) {
+    EXPECT_EQ(findCheck(whole.checks, name)->reason, Reason::unfinished) << name;
+    EXPECT_THAT(findCheck(whole.checks, name)->why, HasSubstr("time limit")) << name;
+  }
+  EXPECT_EQ(findCheck(less.checks, "complement.rank")->why, "the subject forms no T");
+  EXPECT_EQ(verdictOf(less.checks, "complement.rank"), "not_applicable");
 }
 
 TEST(TimeLimit, holdsForTorquesOfAFile) {
