@@ -52,9 +52,10 @@ void addEngines(const ValidationResult& result, ResultFacts& facts) {
   if (result.deviation && expected > 0) facts.allowed = result.deviation->allowed / expected;
 }
 
-std::string ofWhom(const JudgedSubject& subject) {
-  if (subject.formulation == Formulation::noc) return "The NOC's efforts";
-  return subject.name.empty() ? "The efforts" : "The efforts of " + subject.name;
+/// The name of a file or a command stays as it is.
+std::string ofWhom(const JudgedSubject& subject, const std::string& effort) {
+  if (subject.formulation == Formulation::noc) return inEffortWords(effort, "The NOC's efforts");
+  return inEffortWords(effort, "The efforts") + (subject.name.empty() ? "" : " of " + subject.name);
 }
 
 std::string capital(std::string text) {
@@ -112,10 +113,11 @@ std::string failed(const ValidationResult& result, const ResultFacts& facts) {
                                   ? fmt::format("off by {}, where {} is the limit", quantity(worst->value, worst->unit),
                                                 quantity(worst->limit, worst->unit))
                                   : worst->why;
+  const std::string title = inEffortWords(result.effort, checkTitle(worst->name));
   if (onlyFastFails(result.checks))
-    return fmt::format("The fast kernels that users call are wrong, {} hold. {}: {} ({}).", lower(facts.subject),
-                       checkTitle(worst->name), numbers, worst->largest.where);
-  return fmt::format("{} do not hold. {}: {}.", facts.subject, checkTitle(worst->name), numbers);
+    return fmt::format("The fast kernels that users call are wrong, {} hold. {}: {} ({}).", lower(facts.subject), title,
+                       numbers, worst->largest.where);
+  return fmt::format("{} do not hold. {}: {}.", facts.subject, title, numbers);
 }
 
 /// The limit at the replay's end; NaN if unknown.
@@ -145,7 +147,7 @@ std::vector<std::pair<std::string, std::string>> findingTexts(const ValidationRe
 
 ResultFacts factsOf(const ValidationResult& result) {
   ResultFacts out;
-  out.subject = ofWhom(result.subject);
+  out.subject = ofWhom(result.subject, result.effort);
   const std::string motion = result.asked != nullptr ? result.asked->trajectory->kind() : "";
   const TrajectoryKind* kind = trajectoryKind(motion);
   out.motion = kind != nullptr ? kind->words : motion.empty() ? "the motion" : "the motion through " + motion;
@@ -163,9 +165,7 @@ ResultFacts factsOf(const ValidationResult& result) {
   return out;
 }
 
-namespace {
-
-std::string written(const ValidationResult& result) {
+std::string sentence(const ValidationResult& result) {
   const ResultFacts facts = factsOf(result);
   switch (result.verdict) {
     case Verdict::fail:
@@ -176,12 +176,8 @@ std::string written(const ValidationResult& result) {
     case Verdict::not_applicable:
       break;
   }
-  return drives(facts) + agrees(facts) + ".";
+  return drives(facts) + inEffortWords(result.effort, agrees(facts)) + ".";
 }
-
-}  // namespace
-
-std::string sentence(const ValidationResult& result) { return inEffortWords(result.effort, written(result)); }
 
 std::string detail(const ValidationResult& result) {
   const ResultFacts facts = factsOf(result);

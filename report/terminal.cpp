@@ -12,6 +12,7 @@
 #include "report/sections.h"
 #include "report/text.h"
 #include "report/written_files.h"
+#include "validation/verdict/effort_words.h"
 
 namespace ursula::report {
 namespace {
@@ -101,7 +102,8 @@ std::string checksTable(const ValidationResult& result, bool coloured) {
   for (std::size_t k = 0; k < groups.size(); ++k) {
     if (groups[k].empty()) continue;
     const auto end = line + static_cast<std::ptrdiff_t>(groups[k].size());
-    out += painted(k < checkGroups().size() ? checkGroups()[k] : "Further checks", Paint::strong, coloured) + "\n";
+    const std::string title = k < checkGroups().size() ? checkGroups()[k] : "Further checks";
+    out += painted(inEffortWords(result.effort, title), Paint::strong, coloured) + "\n";
     out += groupText(groups[k], {line, end}, coloured);
     line = end;
   }

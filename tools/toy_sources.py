@@ -118,7 +118,7 @@ class ToyCalls : public LoopEngine {
   const PlacedTree& tree(const Motion<double>& motion, Bias bias) override {
     for (int i = 0; i < manipulator().legCount(); ++i) {
       const Leg& leg = manipulator().leg(i);
-      const LegState state = legState(chainOf(leg), leg, i, motion, bias == Bias::kept);
+      const LegMotion state = legState(chainOf(leg), leg, i, motion, bias == Bias::kept);
       const Vector3d arm = motion.Q * leg.platform_point;
       OpenTree::Leg& out = tree_.legs[static_cast<std::size_t>(i)];
       out.J = state.at.J;

@@ -111,6 +111,13 @@ TEST(TerminalText, callsOnlyAClaimedCauseLikely) {
   EXPECT_THAT(texts("a likely part: a factor", CauseClaim::part), HasSubstr("are wrong. A likely part: a factor."));
 }
 
+TEST(Sentence, namesTheEffortsAndKeepsNames) {
+  ValidationResult result = test::failedSample();
+  result.effort = "force";
+  result.subject = {"my torque data.csv", Formulation::external, CalledBy::torques};
+  EXPECT_THAT(report::sentence(result), StartsWith("The forces of my torque data.csv "));
+}
+
 TEST(TerminalText, isColouredOnlyWhereThatIsWanted) {
   EXPECT_THAT(report::validationText(test::failedSample(), true), HasSubstr("\033[1;31mfail\033[0m"));
   EXPECT_TRUE(report::wantsColour(true, nullptr, "xterm"));

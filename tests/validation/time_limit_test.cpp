@@ -165,14 +165,16 @@ TEST(TimeLimit, judgesNoKernelsThatWereNotAsked) {
 
 /// Before any experiment, all is unfinished but what the scenario or the subject lacks.
 TEST(TimeLimit, saysOfEachCheckWhyItIsMissing) {
-  const Scenario scenario = quick();
+  Scenario scenario = quick();
+  scenario.load = std::make_shared<const Load>();
   ValidationOptions options;
   options.time_limit = none_at_all;
   Subject torques = nocSubject(*scenario.manipulator, nullptr);
   const ValidationResult whole = validate(scenario, torques, options);
   torques.complement = nullptr;
   const ValidationResult less = validate(scenario, torques, options);
-  for (const char* name : {"complement.rank", "reactions.pointwise", "integration.second", "replay.position"}) {
+  for (const char* name :
+       {"motion.load", "complement.rank", "reactions.pointwise", "integration.second", "replay.position"}) {
     EXPECT_EQ(findCheck(whole.checks, name)->reason, Reason::unfinished) << name;
     EXPECT_THAT(findCheck(whole.checks, name)->why, HasSubstr("time limit")) << name;
   }

@@ -40,8 +40,7 @@ Check judgeAccelerations(const char* check, const char* what, const std::functio
       {fmt::format("eps (|| T_P inv(I) || x the torque's and the platform's compliance x the forces that close the "
                    "loops) x {:g} x the spread measured over frames and changed inputs",
                    rounding_safety),
-       fmt::format("platform accelerations by (36) against Simbody's, {}", what),
-       [](int motor) { return "torques " + motorChanged(motor); },
+       fmt::format("platform accelerations by (36) against Simbody's, {}", what), motorChanged,
        causeOfRounding(samples, worst.widest_t, Rounded::direct)});
 }
 

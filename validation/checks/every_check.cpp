@@ -21,7 +21,7 @@ std::string lacking(const CheckRow& check, const Scenario& scenario, const Subje
     return "a file gives torques alone, at its own instants";
   switch (check.needs) {
     case CheckNeeds::load_history:
-      return scenario.load ? "the load is constant" : "there is no load";
+      return unless(scenario.load != nullptr, "there is no load");
     case CheckNeeds::kinematics:
       return unless(has.kinematics, "the subject gives no kinematics");
     case CheckNeeds::direct_dynamics:
