@@ -53,8 +53,17 @@ std::string inFull(const Check& check) {
 }
 
 const char* sign(Verdict verdict) {
-  static constexpr const char* signs[] = {"✓", "✗", "?", "–"};
-  return signs[static_cast<std::size_t>(verdict)];
+  switch (verdict) {
+    case Verdict::pass:
+      return "✓";
+    case Verdict::fail:
+      return "✗";
+    case Verdict::inconclusive:
+      return "?";
+    case Verdict::not_applicable:
+      break;
+  }
+  return "–";
 }
 
 std::string word(Verdict verdict) {

@@ -20,8 +20,17 @@ namespace {
 constexpr std::size_t verdict_width = 12;  // "inconclusive"
 
 Paint paintOf(Verdict verdict) {
-  static constexpr Paint paints[] = {Paint::good, Paint::bad, Paint::open, Paint::quiet};
-  return paints[static_cast<std::size_t>(verdict)];
+  switch (verdict) {
+    case Verdict::pass:
+      return Paint::good;
+    case Verdict::fail:
+      return Paint::bad;
+    case Verdict::inconclusive:
+      return Paint::open;
+    case Verdict::not_applicable:
+      break;
+  }
+  return Paint::quiet;
 }
 
 std::string paintedVerdict(Verdict verdict, bool coloured) {

@@ -12,8 +12,17 @@ namespace ursula {
 namespace {
 
 int severity(Verdict verdict) {
-  static constexpr int severities[] = {1, 3, 2, 0};
-  return severities[static_cast<std::size_t>(verdict)];
+  switch (verdict) {
+    case Verdict::fail:
+      return 3;
+    case Verdict::inconclusive:
+      return 2;
+    case Verdict::pass:
+      return 1;
+    case Verdict::not_applicable:
+      break;
+  }
+  return 0;
 }
 
 // A number beyond its limit comes before a missing number, which is often only its consequence.

@@ -151,11 +151,17 @@ std::string drivenBy(const SweepSummary& summary, const SweepOutput& output) {
 }
 
 std::string reasonOf(NoIndex reason) {
-  static constexpr const char* texts[] = {
-      "", "fewer than 200 points have a value",
-      "not every point of the grid has a value, and its numbers are then not independent",
-      "it is the same at every point"};
-  return texts[static_cast<std::size_t>(reason)];
+  switch (reason) {
+    case NoIndex::too_few:
+      return "fewer than 200 points have a value";
+    case NoIndex::grid_not_complete:
+      return "not every point of the grid has a value, and its numbers are then not independent";
+    case NoIndex::constant:
+      return "it is the same at every point";
+    case NoIndex::none:
+      break;
+  }
+  return "";
 }
 
 std::string sweepSentence(const SweepSummary& summary) {
