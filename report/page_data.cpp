@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report/quantity.h"
+#include "validation/verdict/effort_words.h"
 
 namespace ursula::report {
 namespace {
@@ -52,7 +53,7 @@ Json eventsJson(const ValidationResult& result) {
     if (std::isfinite(value) && value > 0) events.push_back({t, what + quantity(value, unit)});
   };
   if (const auto& deviation = result.deviation)
-    add(deviation->t, "largest " + result.effort + " deviation, ", deviation->largest, deviation->unit);
+    add(deviation->t, inEffortWords(result.effort, "largest effort deviation, "), deviation->largest, deviation->unit);
   for (const Check& check : result.checks)
     if (check.name == "replay.position")
       add(check.largest.t, "largest replay error, ", check.largest.value, check.unit);
