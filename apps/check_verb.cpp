@@ -10,7 +10,7 @@
 #include "base/text.h"
 #include "model/scenario_excerpt.h"
 #include "model/scenario_files.h"
-#include "studies/check_scenario/check_scenario.h"
+#include "validation/check_scenario/check_scenario.h"
 #include "validation/subject/motion_check.h"
 
 namespace ursula {

@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "apps/verbs.h"
-#include "report/result_facts.h"
+#include "report/text/result_facts.h"
 
 namespace ursula {
 namespace {

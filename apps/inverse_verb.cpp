@@ -10,7 +10,7 @@
 #include "apps/progress.h"
 #include "apps/verbs.h"
 #include "model/scenario_files.h"
-#include "studies/stream/inverse_blocks.h"
+#include "report/files/inverse_blocks.h"
 
 namespace ursula {
 namespace {

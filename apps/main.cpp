@@ -13,10 +13,10 @@
 #include "base/csv.h"
 #include "base/errors.h"
 #include "base/provenance.h"
-#include "exchange/import.h"
+#include "parts/exchange/import.h"
 #include "model/scenario_excerpt.h"
 #include "nocsolver/errors.h"
-#include "studies/sweep/sqlite.h"
+#include "parts/sweep/sqlite.h"
 
 namespace {
 

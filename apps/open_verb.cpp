@@ -8,7 +8,7 @@
 
 #include "apps/verbs.h"
 #include "base/child_process.h"
-#include "report/run.h"
+#include "report/files/run.h"
 
 namespace ursula {
 namespace {

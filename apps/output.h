@@ -9,7 +9,7 @@
 
 #include "base/output_file.h"
 #include "base/text.h"
-#include "studies/stream/blocks.h"
+#include "report/files/blocks.h"
 
 namespace ursula {
 

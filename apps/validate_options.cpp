@@ -12,8 +12,8 @@
 #include "apps/output.h"
 #include "apps/verbs.h"
 #include "base/text.h"
-#include "report/terminal.h"
-#include "report/written_files.h"
+#include "report/text/terminal.h"
+#include "report/files/written_files.h"
 #include "validation/subject/torque_names.h"
 
 namespace ursula {

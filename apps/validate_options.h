@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "report/report.h"
+#include "report/files/report.h"
 #include "validation/subject/torque_file.h"
 
 namespace ursula {

@@ -9,7 +9,7 @@
 
 #include "apps/output.h"
 #include "base/text.h"
-#include "report/run.h"
+#include "report/files/run.h"
 
 namespace ursula {
 namespace {

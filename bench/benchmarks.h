@@ -8,7 +8,7 @@
 #include "bench/peers/agreement.h"
 #include "bench/peers/helix.h"
 #include "bench/peers/peer.h"
-#include "nocsolver/fast/batch_dynamics.h"
+#include "parts/fast/batch_dynamics.h"
 
 namespace ursula::bench {
 

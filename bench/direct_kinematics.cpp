@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "bench/benchmarks.h"
-#include "nocsolver/poses/direct_kinematics.h"
+#include "parts/poses/direct_kinematics.h"
 
 namespace ursula::bench {
 namespace {

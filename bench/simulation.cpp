@@ -2,8 +2,8 @@
 // Runge–Kutta–Fehlberg 7(8). It must end within 2e-9 m of the commanded pose.
 
 #include "bench/benchmarks.h"
-#include "nocsolver/fast/fast_dynamics.h"
-#include "studies/simulate/simulate.h"
+#include "parts/fast/fast_dynamics.h"
+#include "parts/simulate/simulate.h"
 
 namespace ursula::bench {
 namespace {

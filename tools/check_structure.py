@@ -137,7 +137,7 @@ def check_targets(root):
     forbidden = {"base": re.compile(r"(?i)ursula::(?!options|eigen|base)\w+|simbody|mujoco"),
                  "model": re.compile(r"(?i)ursula::(nocsolver|validation|report)|simbody|mujoco"),
                  "nocsolver": re.compile(r"(?i)simbody|mujoco|ursula::validation|tbb"),
-                 "nocsolver/fast/parallel": re.compile(r"(?i)simbody|mujoco|ursula::validation"),
+                 "parts/fast/parallel": re.compile(r"(?i)simbody|mujoco|ursula::validation"),
                  "engines": re.compile(r"ursula[:_]+(nocsolver|validation)"),
                  "exchange": re.compile(r"(?i)ursula::(?!base|model|exchange)\w+|simbody|mujoco"),
                  "validation": re.compile(r"(?i)ursula::(apps|report)|\$\{(simbody|ursula_mujoco)_"),

@@ -9,13 +9,13 @@ import re
 HEADERS = {
     "scenario": ["model/scenario.h", "model/scenario_json.h", "model/manipulator.h", "model/trajectory.h", "model/trajectories/trajectories.h",
                  "model/motion.h", "model/load.h", "model/instants.h", "model/quaternions.h", "base/errors.h"],
-    "solver": ["nocsolver/solver.h", "nocsolver/fast/batch_dynamics.h", "nocsolver/fast/parallel/threaded_batch.h",
-               "nocsolver/fast/effort_derivatives.h", "nocsolver/poses/direct_kinematics.h", "nocsolver/poses/ups_poses.h"],
+    "solver": ["parts/fast/solver.h", "parts/fast/batch_dynamics.h", "parts/fast/parallel/threaded_batch.h",
+               "parts/fast/effort_derivatives.h", "parts/poses/direct_kinematics.h", "parts/poses/ups_poses.h"],
     "validate": ["validation/subject/subject.h", "validation/validate.h", "validation/outside/outside_solver.h",
                  "validation/validate.h", "validation/verdict/result.h"],
-    "report": ["report/report.h", "report/written_files.h"],
-    "studies": ["studies/simulate/simulate.h", "studies/check_scenario/check_scenario.h", "studies/map/pose_map.h",
-                "studies/compare/compare.h"],
+    "report": ["report/files/report.h", "report/files/written_files.h"],
+    "studies": ["parts/simulate/simulate.h", "validation/check_scenario/check_scenario.h", "parts/map/pose_map.h",
+                "parts/compare/compare.h"],
 }
 ENTITY = re.compile(r"\b(?:class|struct|enum class|enum)\s+(\w+)[^;()]*[{]|\b(?:using)\s+(\w+)|([\w~]+(?:<[^>]*>)?)\s*\(")
 

@@ -25,19 +25,19 @@ def sound_tree():
         "base/CMakeLists.txt": "target_link_libraries(b ursula::eigen)\n",
         "model/CMakeLists.txt": "target_link_libraries(m ursula::base)\n",
         "report/CMakeLists.txt": "target_link_libraries(r ursula::verdict)\n",
-        "studies/CMakeLists.txt": "add_subdirectory(suite)\n",
-        "engines/CMakeLists.txt": "target_link_libraries(s ${Simbody_LIBRARIES})\n",
-        "exchange/CMakeLists.txt": "target_link_libraries(x ursula::model tinyxml2::tinyxml2)\n",
+        "parts/CMakeLists.txt": "add_subdirectory(suite)\n",
+        "parts/engines/CMakeLists.txt": "target_link_libraries(s ${Simbody_LIBRARIES})\n",
+        "parts/exchange/CMakeLists.txt": "target_link_libraries(x ursula::model tinyxml2::tinyxml2)\n",
         "nocsolver/CMakeLists.txt": "target_link_libraries(n ursula::model)  # never Simbody\n",
-        "nocsolver/fast/parallel/CMakeLists.txt": "target_link_libraries(p ursula::nocsolver TBB::tbb)\n",
+        "parts/fast/parallel/CMakeLists.txt": "target_link_libraries(p ursula::nocsolver TBB::tbb)\n",
         "validation/CMakeLists.txt": "target_link_libraries(v ursula::nocsolver ursula::simbody_loop)\n",
         "model/machine.h": "#include <Eigen/Core>\n",
-        "engines/simbody/simbody_loop.h": "// SimTK stays behind this header.\n",
-        "engines/simbody/simbody_loop_internal.h": "#include <Simbody.h>\nSimTK::State s;\n",
-        "engines/simbody/simbody_loop.cpp": '#include "engines/simbody/simbody_loop_internal.h"\n#include "engines/simbody/simbody_loop.h"\n',
+        "simbody/simbody_loop.h": "// SimTK stays behind this header.\n",
+        "simbody/simbody_loop_internal.h": "#include <Simbody.h>\nSimTK::State s;\n",
+        "simbody/simbody_loop.cpp": '#include "simbody/simbody_loop_internal.h"\n#include "simbody/simbody_loop.h"\n',
         "nocsolver/leg.h": '#include "model/machine.h"\n',
         "nocsolver/leg.cpp": '#include "nocsolver/leg.h"\nvoid legRates();  // (paper, eqs. 15a–b)\n',
-        "validation/replay/replay.cpp": '#include "engines/simbody/simbody_loop.h"\n#include "nocsolver/leg.h"\n',
+        "validation/replay/replay.cpp": '#include "simbody/simbody_loop.h"\n#include "nocsolver/leg.h"\n',
         "validation/verdict/result.h": "// Verdicts.\n",
         "validation/verdict/CMakeLists.txt": "ursula_component(verdict)\n",
         "validation/checks/engines.cpp": '#include "validation/verdict/result.h"\n#include "validation/replay/replay.h"\n',
@@ -45,9 +45,9 @@ def sound_tree():
         "include/ursula/solver.h": '#include <ursula/build.h>\n#include "nocsolver/leg.h"\n',
         "examples/loop.cpp": "#include <ursula/solver.h>\n#include <vector>\n",
         "python/module.cpp": "#include <pybind11/pybind11.h>\n#include <ursula/solver.h>\n",
-        "report/page.cpp": '#include "validation/verdict/result.h"\n',
-        "studies/suite/suite.cpp": '#include "report/page.h"\n#include "validation/validate.h"\n',
-        "report/page.h": "// Pages.\n",
+        "report/page/page.cpp": '#include "validation/verdict/result.h"\n',
+        "apps/suite/suite.cpp": '#include "report/page/page.h"\n#include "validation/validate.h"\n',
+        "report/page/page.h": "// Pages.\n",
         "validation/validate.h": "// The front door.\n",
         "apps/main.cpp": '#include "model/machine.h"\n',
         "tests/support.h": '#include "nocsolver/leg.h"\n',
@@ -85,22 +85,22 @@ class CheckStructure(unittest.TestCase):
     def test_include_rules(self):
         append = lambda text: ("", text)  # noqa: E731
         self.assert_caught("the solver may not see an engine", nocsolver__leg_DOT_cpp=append("#include <Simbody.h>\n"))
-        self.assert_caught("the solver may not see an engine", nocsolver__leg_DOT_cpp=append('#include "engines/simbody/simbody_loop.h"\n'))
-        self.assert_caught("leg.h -> model/machine.h -> engines/simbody/simbody_loop.h",
-                           model__machine_DOT_h=append('#include "engines/simbody/simbody_loop.h"\n'))
+        self.assert_caught("the solver may not see an engine", nocsolver__leg_DOT_cpp=append('#include "simbody/simbody_loop.h"\n'))
+        self.assert_caught("leg.h -> model/machine.h -> simbody/simbody_loop.h",
+                           model__machine_DOT_h=append('#include "simbody/simbody_loop.h"\n'))
         self.assert_caught("the solver may not see the engines' geometry", nocsolver__leg_DOT_cpp=append('#include "model/legs/leg.h"\n'))
         self.assert_caught("may not see the solver", engines__simbody__simbody_loop_DOT_cpp=append('#include "nocsolver/leg.h"\n'))
         self.assert_caught("the solver may not see an engine", nocsolver__leg_DOT_cpp=append("#include <mujoco/mujoco.h>\n"))
         self.assert_caught("an engine may not see another",
-                           engines__mujoco__mujoco_loop_DOT_cpp=append('#include "engines/simbody/simbody_loop.h"\n'))
-        self.assert_caught("nocsolver/noc may not include nocsolver/fast", nocsolver__fast__k_DOT_h=("", "#pragma once\n"),
-                           nocsolver__noc__n_DOT_h=("", '#include "nocsolver/fast/k.h"\n'))
+                           engines__mujoco__mujoco_loop_DOT_cpp=append('#include "simbody/simbody_loop.h"\n'))
+        self.assert_caught("nocsolver/noc may not include parts/fast", nocsolver__fast__k_DOT_h=("", "#pragma once\n"),
+                           nocsolver__noc__n_DOT_h=("", '#include "parts/fast/k.h"\n'))
         self.assert_caught("model/ may not include nocsolver/", model__machine_DOT_h=append('#include "nocsolver/leg.h"\n'))
         self.assert_caught("tests/ may not include apps/", apps__a_DOT_h=append("\n"),
                            tests__leg_test_DOT_cpp=append('#include "../apps/a.h"\n'))
         self.assert_caught("tests/ may not include apps/", apps__a_DOT_h=append("\n"),
                            tests__leg_test_DOT_cpp=append('#include "apps/a.h"\n'))
-        self.assert_caught("which is internal", validation__r_DOT_h=append('#include "engines/simbody/simbody_loop_internal.h"\n'))
+        self.assert_caught("which is internal", validation__r_DOT_h=append('#include "simbody/simbody_loop_internal.h"\n'))
         self.assert_caught("is no file of this project", nocsolver__leg_DOT_cpp=append('#include "leg.h"\n'))
 
     def test_users_of_the_library(self):
@@ -130,7 +130,7 @@ class CheckStructure(unittest.TestCase):
         self.assert_caught("exchange may not link", exchange__CMakeLists_DOT_txt=("", "link(ursula::nocsolver)\n"))
         self.assert_caught("nocsolver may not link", nocsolver__CMakeLists_DOT_txt=("", "link(${Simbody_LIBRARIES})\n"))
         self.assert_caught("nocsolver may not link", nocsolver__CMakeLists_DOT_txt=("", "link(TBB::tbb)\n"))
-        self.assert_caught("nocsolver/fast/parallel may not link",
+        self.assert_caught("parts/fast/parallel may not link",
                            nocsolver__fast__parallel__CMakeLists_DOT_txt=("", "link(${Simbody_LIBRARIES})\n"))
         self.assert_caught("base may not link", base__CMakeLists_DOT_txt=("", "link(ursula::model)\n"))
         self.assert_caught("model may not link", model__CMakeLists_DOT_txt=("", "link(ursula::nocsolver)\n"))
@@ -140,10 +140,10 @@ class CheckStructure(unittest.TestCase):
                            validation__verdict__result_DOT_h=("", '#include "validation/checks/a.h"\n'))
         self.assert_caught("replay may not see the entry",
                            validation__replay__replay_DOT_cpp=("", '#include "validation/validate.h"\n'))
-        self.assert_caught("validation/ may not include report/", validation__validate_DOT_h=("", '#include "report/page.h"\n'))
+        self.assert_caught("validation/ may not include report/", validation__validate_DOT_h=("", '#include "report/page/page.h"\n'))
         self.assert_caught("report/ may not see replay", report__page_DOT_h=("", '#include "validation/replay/replay.h"\n'))
         self.assert_caught("suite may not see prove", studies__prove__p_DOT_h=("", "\n"),
-                           studies__suite__suite_DOT_cpp=("", '#include "studies/prove/p.h"\n'))
+                           studies__suite__suite_DOT_cpp=("", '#include "parts/prove/p.h"\n'))
         self.assert_caught("attic/ is no component", validation__attic__a_DOT_cpp=("", "\n"))
         self.assert_caught("verdict may not link ursula::checks",
                            validation__verdict__CMakeLists_DOT_txt=("", "target_link_libraries(v ursula::checks)\n"))

@@ -104,8 +104,8 @@ std::shared_ptr<const Trajectory> readToy(const TomlSection& table) {
             ('    TrajectoryKind{"hold"', '    TrajectoryKind{"toy", "the toy", nullptr, toyKeys, readToy},\n')]})
 
 ENGINE = Toy(
-    new={"engines/toy/toy_calls.cpp": """#include "engines/leg_motion.h"
-#include "engines/loop_engine.h"
+    new={"engines/toy/toy_calls.cpp": """#include "parts/engines/leg_motion.h"
+#include "parts/engines/loop_engine.h"
 
 namespace ursula {
 namespace {
@@ -140,10 +140,10 @@ std::unique_ptr<LoopEngine> makeToyCalls(const Manipulator& manipulator, std::sh
 }  // namespace ursula
 """},
     edits={
-        "engines/CMakeLists.txt": [("add_library(ursula::loop_engines ALIAS",
+        "parts/engines/CMakeLists.txt": [("add_library(ursula::loop_engines ALIAS",
                                     "target_sources(ursula_loop_engines PRIVATE toy/toy_calls.cpp)\n")],
-        "engines/loop_engine.h": [("std::string simbodyVersion();", "MakeLoopEngine makeToyCalls;\n")],
-        "engines/loop_engines.cpp": [('      {"MuJoCo", "libmujoco-dev"', """\
+        "parts/engines/loop_engine.h": [("std::string simbodyVersion();", "MakeLoopEngine makeToyCalls;\n")],
+        "parts/engines/loop_engines.cpp": [('      {"MuJoCo", "libmujoco-dev"', """\
       {"Toy", "", alwaysAvailable, [] { return std::string(); }, makeToyCalls, Recipe::open, "weigh the bodies",
        "trees without mass", false},
 """)]})
@@ -170,9 +170,9 @@ constexpr Ups classOf(std::integral_constant<LegKind, LegKind::TOY>) { return {}
 
 }  // namespace ursula::legs
 """,
-        "nocsolver/fast/kernels/toy_kernel.h": """#pragma once
+        "parts/fast/kernels/toy_kernel.h": """#pragma once
 
-#include "nocsolver/fast/kernels/ups_kernel.h"
+#include "parts/fast/kernels/ups_kernel.h"
 
 namespace ursula::kernel {
 
@@ -219,8 +219,8 @@ Matrix3<S> massMatrix(Toy, const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
             ("    case LegKind::RUS:", "    case LegKind::TOY:\n      return f(std::integral_constant<LegKind, LegKind::TOY>());\n")],
         "model/CMakeLists.txt": [(")  # as in leg_kind.h", " TOY")],
         "nocsolver/legs/leg_of.h": [('#include "nocsolver/legs/ups.h"', '#include "nocsolver/legs/toy.h"\n')],
-        "nocsolver/fast/kernels/leg_kernels.h": [('#include "nocsolver/fast/kernels/ups_kernel.h"',
-                                                  '#include "nocsolver/fast/kernels/toy_kernel.h"\n')]})
+        "parts/fast/kernels/leg_kernels.h": [('#include "parts/fast/kernels/ups_kernel.h"',
+                                                  '#include "parts/fast/kernels/toy_kernel.h"\n')]})
 
 VERB = Toy(
     new={"apps/toy_verb.cpp": """#include "apps/verbs.h"

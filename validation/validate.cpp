@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "validation/causes/asked_apart.h"
-#include "validation/causes/diagnosis.h"
+#include "parts/causes/asked_apart.h"
+#include "parts/causes/diagnosis.h"
 #include "validation/checks/families.h"
 #include "validation/checks/judges.h"
 #include "validation/checks/tolerance.h"

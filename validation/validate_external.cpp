@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/deadline.h"
-#include "validation/causes/diagnosis.h"
+#include "parts/causes/diagnosis.h"
 #include "validation/checks/families.h"
 #include "validation/checks/judges.h"
 #include "validation/checks/tolerance.h"

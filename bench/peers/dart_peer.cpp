@@ -13,7 +13,7 @@
 #include <stdexcept>
 
 #include "bench/peers/peer.h"
-#include "engines/closing.h"
+#include "parts/engines/closing.h"
 
 namespace ursula::bench {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "model/scenario.h"
-#include "nocsolver/solver.h"
+#include "parts/fast/solver.h"
 
 namespace ursula::bench {
 

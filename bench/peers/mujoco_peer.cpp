@@ -1,6 +1,6 @@
 #include "bench/peers/peer.h"
-#include "engines/closing.h"
-#include "engines/mujoco/mujoco_loop.h"
+#include "parts/engines/closing.h"
+#include "parts/engines/mujoco/mujoco_loop.h"
 
 namespace ursula::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engines/open_tree.h"
+#include "model/open_tree.h"
 #include "model/joint_variables.h"
 #include "model/manipulator.h"
 

@@ -1,7 +1,7 @@
 #include <array>
 
 #include "bench/peers/peer.h"
-#include "engines/mujoco/mujoco_loop.h"
+#include "parts/engines/mujoco/mujoco_loop.h"
 
 namespace ursula::bench {
 

@@ -1,7 +1,7 @@
 #include "base/provenance.h"
 #include "bench/peers/peer.h"
-#include "engines/closing.h"
-#include "engines/simbody/simbody_loop.h"
+#include "parts/engines/closing.h"
+#include "simbody/simbody_loop.h"
 
 namespace ursula::bench {
 namespace {

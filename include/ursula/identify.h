@@ -5,5 +5,5 @@
 
 #include "base/csv.h"
 #include "include/ursula/abi.h"
-#include "studies/identify/excite.h"
-#include "studies/identify/identify.h"
+#include "parts/identify/excite.h"
+#include "parts/identify/identify.h"

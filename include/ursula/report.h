@@ -4,5 +4,5 @@
 /// A ValidationResult as files: summary.json, timeseries.csv, report.html, junit.xml.
 
 #include "include/ursula/abi.h"
-#include "report/report.h"
-#include "report/written_files.h"
+#include "report/files/report.h"
+#include "report/files/written_files.h"

@@ -5,9 +5,9 @@
 /// EffortDerivatives, DirectKinematics for all poses.
 
 #include "include/ursula/abi.h"
-#include "nocsolver/fast/batch_dynamics.h"
-#include "nocsolver/fast/effort_derivatives.h"
-#include "nocsolver/fast/parallel/threaded_batch.h"
-#include "nocsolver/poses/direct_kinematics.h"
-#include "nocsolver/poses/ups_poses.h"
-#include "nocsolver/solver.h"
+#include "parts/fast/batch_dynamics.h"
+#include "parts/fast/effort_derivatives.h"
+#include "parts/fast/parallel/threaded_batch.h"
+#include "parts/poses/direct_kinematics.h"
+#include "parts/poses/ups_poses.h"
+#include "parts/fast/solver.h"

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "bench/peers/agreement.h"
-#include "engines/mujoco/mujoco_loop.h"
+#include "parts/engines/mujoco/mujoco_loop.h"
 
 namespace ursula::bench {
 namespace {

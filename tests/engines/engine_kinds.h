@@ -7,8 +7,8 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-#include "engines/maximal/maximal_loop.h"
-#include "engines/mujoco/mujoco_loop.h"
+#include "parts/engines/maximal/maximal_loop.h"
+#include "parts/engines/mujoco/mujoco_loop.h"
 #include "nocsolver/noc/noc.h"
 #include "tests/model/random_kinds.h"
 

@@ -1,7 +1,7 @@
 // MuJoCo's formulation beside Simbody's six balls and maximal coordinates on what ships, and far from the origin. The
 // vectors and wrong parameters are in engine_kinds_test.cpp and engine_kinds_wrong_test.cpp.
 
-#include "engines/mujoco/mujoco_loop.h"
+#include "parts/engines/mujoco/mujoco_loop.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "engines/further_engines.h"
-#include "engines/maximal/maximal_loop.h"
-#include "engines/simbody/simbody_loop.h"
+#include "parts/engines/further_engines.h"
+#include "parts/engines/maximal/maximal_loop.h"
+#include "simbody/simbody_loop.h"
 #include "tests/support/motions.h"
 #include "tests/support/numbers.h"
 #include "tests/support/vectors.h"

@@ -1,7 +1,7 @@
 // The closed loop in Simbody by itself: two topologies of one machine, and the properties of both. This program does
 // not link the solver.
 
-#include "engines/simbody/simbody_loop.h"
+#include "simbody/simbody_loop.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

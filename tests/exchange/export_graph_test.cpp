@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "exchange/leg_pose.h"
-#include "exchange/write/export.h"
-#include "exchange/write/xml_text.h"
+#include "parts/exchange/leg_pose.h"
+#include "parts/exchange/write/export.h"
+#include "parts/exchange/write/xml_text.h"
 #include "tests/exchange/export_support.h"
 
 namespace ursula::exchange {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "exchange/write/export.h"
+#include "parts/exchange/write/export.h"
 #include "tests/exchange/export_mujoco_internal.h"
 
 namespace ursula::exchange {

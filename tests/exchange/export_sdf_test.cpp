@@ -7,7 +7,7 @@
 #include <sdf/sdf.hh>
 #include <set>
 
-#include "exchange/write/export.h"
+#include "parts/exchange/write/export.h"
 #include "tests/exchange/export_support.h"
 
 namespace ursula::exchange {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "exchange/write/export.h"
+#include "parts/exchange/write/export.h"
 #include "nocsolver/noc/noc.h"
 
 namespace ursula::exchange {

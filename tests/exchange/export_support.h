@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "exchange/write/export.h"
+#include "parts/exchange/write/export.h"
 #include "model/joint_variables.h"
 #include "model/scenario.h"
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "exchange/import.h"
+#include "parts/exchange/import.h"
 
 namespace ursula::exchange {
 namespace {

@@ -12,7 +12,7 @@
 #include <memory>
 #include <string>
 
-#include "exchange/import.h"
+#include "parts/exchange/import.h"
 
 namespace ursula::exchange {
 namespace {

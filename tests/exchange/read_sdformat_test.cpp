@@ -9,7 +9,7 @@
 #include <string>
 #include <tuple>
 
-#include "exchange/import.h"
+#include "parts/exchange/import.h"
 
 namespace ursula::exchange {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "base/csv.h"
-#include "studies/compare/compare.h"
+#include "parts/compare/compare.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {

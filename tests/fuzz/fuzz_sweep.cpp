@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "model/scenario.h"
-#include "studies/sweep/design.h"
+#include "parts/sweep/design.h"
 #include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -9,7 +9,7 @@
 
 #include "base/real50.h"
 #include "model/trajectories/trajectories.h"
-#include "studies/random/dice.h"
+#include "parts/random/dice.h"
 
 namespace ursula {
 namespace {

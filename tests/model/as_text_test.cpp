@@ -13,7 +13,7 @@
 #include "model/exact_trajectory.h"
 #include "model/scenario_keys.h"
 #include "model/trajectories/trajectories.h"
-#include "studies/random/random_scenario.h"
+#include "parts/random/random_scenario.h"
 #include "tests/base/temporary_folder.h"
 #include "tests/support/numbers.h"
 #include "tests/support/vectors.h"

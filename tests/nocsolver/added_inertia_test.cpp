@@ -11,9 +11,9 @@
 
 #include "base/real50.h"
 #include "model/machine_numbers.h"
-#include "nocsolver/fast/batch_dynamics.h"
-#include "nocsolver/fast/effort_derivatives.h"
-#include "nocsolver/fast/fast_dynamics.h"
+#include "parts/fast/batch_dynamics.h"
+#include "parts/fast/effort_derivatives.h"
+#include "parts/fast/fast_dynamics.h"
 #include "nocsolver/noc/noc.h"
 #include "tests/support/vectors.h"
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "nocsolver/poses/direct_kinematics.h"
-#include "nocsolver/poses/direct_kinematics_parts.h"
+#include "parts/poses/direct_kinematics.h"
+#include "parts/poses/direct_kinematics_parts.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
 

@@ -1,6 +1,6 @@
 // Quadrics with known common roots: three pairs of planes meet in eight points.
 
-#include "nocsolver/poses/direct_kinematics_parts.h"
+#include "parts/poses/direct_kinematics_parts.h"
 
 #include <gtest/gtest.h>
 

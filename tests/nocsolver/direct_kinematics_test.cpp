@@ -1,7 +1,7 @@
 // Compares poses from actuated angles with the poses that the angles come from, and with the paper's 18 equations,
 // written here from raw parameters.
 
-#include "nocsolver/poses/direct_kinematics.h"
+#include "parts/poses/direct_kinematics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // EffortDerivatives against central differences of FastDynamics in 50 digits, over the machines of tests/vectors (every
 // kind of leg, mixtures, friction, several motors on a leg).
 
-#include "nocsolver/fast/effort_derivatives.h"
+#include "parts/fast/effort_derivatives.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "base/errors.h"
 #include "base/real50.h"
 #include "model/machine_numbers.h"
-#include "nocsolver/fast/fast_dynamics.h"
+#include "parts/fast/fast_dynamics.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"

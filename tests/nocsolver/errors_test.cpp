@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "nocsolver/solver.h"
+#include "parts/fast/solver.h"
 #include "tests/support/matchers.h"
 #include "tests/support/vectors.h"
 

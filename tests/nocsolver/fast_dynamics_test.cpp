@@ -1,7 +1,7 @@
 // FastDynamics against Noc, which forms T, in 50 digits and in doubles; BatchDynamics against FastDynamics, by every
 // instruction set that this processor has.
 
-#include "nocsolver/fast/fast_dynamics.h"
+#include "parts/fast/fast_dynamics.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,9 +14,9 @@
 
 #include "base/real50.h"
 #include "model/load.h"
-#include "nocsolver/fast/batch_dynamics.h"
-#include "nocsolver/fast/effort_derivatives.h"
-#include "nocsolver/solver.h"
+#include "parts/fast/batch_dynamics.h"
+#include "parts/fast/effort_derivatives.h"
+#include "parts/fast/solver.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "nocsolver/poses/ups_poses.h"
+#include "parts/poses/ups_poses.h"
 
 // Random six-legged machines and their poses. For tests/nocsolver/ups_poses_*.
 

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <optional>
 
-#include "nocsolver/poses/direct_kinematics.h"
+#include "parts/poses/direct_kinematics.h"
 #include "tests/nocsolver/ups_poses_cases.h"
 
 namespace ursula {

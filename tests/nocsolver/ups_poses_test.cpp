@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "model/scenario.h"
-#include "nocsolver/solver.h"
+#include "parts/fast/solver.h"
 #include "tests/nocsolver/ups_poses_cases.h"
 
 namespace ursula {

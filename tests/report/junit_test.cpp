@@ -1,6 +1,6 @@
 // JUnit files must satisfy the rules of Jenkins' junit-10.xsd, written as assertions.
 
-#include "report/written_files.h"
+#include "report/files/written_files.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "report/text.h"
+#include "report/text/text.h"
 #include "tests/report/report_samples.h"
 #include "tests/report/text_parts.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/output_file.h"
 #include "model/scenario.h"
-#include "studies/compare/compare_page.h"
+#include "parts/compare/compare_page.h"
 #include "tests/report/report_samples.h"
 
 namespace ursula::test {

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "studies/audit/audit.h"
-#include "studies/prove/prove.h"
+#include "parts/audit/audit.h"
+#include "parts/prove/prove.h"
 #include "validation/verdict/result.h"
 
 namespace ursula::test {

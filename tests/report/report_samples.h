@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "report/report.h"
+#include "report/files/report.h"
 #include "validation/verdict/result.h"
 
 namespace ursula::test {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "report/report.h"
+#include "report/files/report.h"
 #include "tests/report/page_samples.h"
 #include "tests/report/report_samples.h"
 

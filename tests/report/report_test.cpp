@@ -1,7 +1,7 @@
 // Reads the files of a result back with other parsers: nlohmann::json, Boost's XML reader and the project's CSV reader.
 // report_browser_test.mjs tests the HTML in a browser.
 
-#include "report/report.h"
+#include "report/files/report.h"
 
 #include <gtest/gtest.h>
 
@@ -13,12 +13,12 @@
 #include <sstream>
 
 #include "base/csv.h"
-#include "report/html_template.h"
-#include "report/plots.h"
-#include "report/quantity.h"
-#include "report/result_facts.h"
-#include "report/text.h"
-#include "report/written_files.h"
+#include "report/page/html_template.h"
+#include "report/page/plots.h"
+#include "report/text/quantity.h"
+#include "report/text/result_facts.h"
+#include "report/text/text.h"
+#include "report/files/written_files.h"
 #include "tests/report/report_samples.h"
 #include "tests/report/text_parts.h"
 #include "tests/support/numbers.h"

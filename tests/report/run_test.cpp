@@ -1,6 +1,6 @@
 // Files of one run are told from those of another.
 
-#include "report/run.h"
+#include "report/files/run.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

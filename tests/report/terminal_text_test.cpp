@@ -1,6 +1,6 @@
 // The text of a result on a terminal, and of each check.
 
-#include "report/terminal.h"
+#include "report/text/terminal.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "model/check_catalogue.h"
-#include "report/result_facts.h"
-#include "report/text.h"
+#include "report/text/result_facts.h"
+#include "report/text/text.h"
 #include "tests/report/report_samples.h"
 #include "tests/support/matchers.h"
 #include "tests/support/numbers.h"

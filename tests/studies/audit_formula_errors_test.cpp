@@ -7,8 +7,8 @@
 
 #include "model/scenario.h"
 #include "nocsolver/noc/noc.h"
-#include "studies/audit/effect.h"
-#include "studies/audit/formula.h"
+#include "parts/audit/effect.h"
+#include "parts/audit/formula.h"
 
 namespace ursula::audit {
 namespace {

@@ -1,6 +1,6 @@
 // The audit of the paper's example as a whole, and docs/audit.md against it. One program, one audit.
 
-#include "studies/audit/audit.h"
+#include "parts/audit/audit.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <set>
 #include <sstream>
 
-#include "report/page.h"
+#include "report/page/page.h"
 
 namespace ursula {
 namespace {

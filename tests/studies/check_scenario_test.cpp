@@ -1,6 +1,6 @@
 // The warnings of `ursula check`: each with its number and place, and none in good scenarios.
 
-#include "studies/check_scenario/check_scenario.h"
+#include "validation/check_scenario/check_scenario.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "studies/compare/compare.h"
+#include "parts/compare/compare.h"
 #include "tests/studies/histories.h"
 #include "tests/support/matchers.h"
 

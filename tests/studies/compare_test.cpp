@@ -1,7 +1,7 @@
 // Two histories channel by channel: tubes in value and time, channels that are not compared, and that nothing missing
 // passes.
 
-#include "studies/compare/compare.h"
+#include "parts/compare/compare.h"
 
 #include <gtest/gtest.h>
 

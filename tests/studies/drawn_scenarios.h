@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "studies/random/random_scenario.h"
+#include "parts/random/random_scenario.h"
 
 namespace ursula {
 

@@ -10,8 +10,8 @@
 #include <set>
 
 #include "base/csv.h"
-#include "report/quantity.h"
-#include "studies/engines/side_by_side.h"
+#include "report/text/quantity.h"
+#include "parts/engines/side_by_side/side_by_side.h"
 #include "tests/support/matchers.h"
 
 namespace ursula {

@@ -1,9 +1,9 @@
-#include "report/heat_map.h"
+#include "report/page/heat_map.h"
 
 #include <cmath>
 #include <limits>
 
-#include "report/quantity.h"
+#include "report/text/quantity.h"
 #include "tests/support/matchers.h"
 
 namespace ursula::report {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/instants.h"
-#include "studies/compare/compare.h"
+#include "parts/compare/compare.h"
 
 namespace ursula {
 

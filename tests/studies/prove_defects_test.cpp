@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <string>
 
-#include "engines/mujoco/mujoco_loop.h"
-#include "studies/prove/prove.h"
+#include "parts/engines/mujoco/mujoco_loop.h"
+#include "parts/prove/prove.h"
 #include "tests/validation/scenario_files.h"
 
 namespace ursula {

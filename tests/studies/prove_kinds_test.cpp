@@ -8,9 +8,9 @@
 #include <map>
 #include <set>
 
-#include "studies/prove/defects.h"
-#include "studies/prove/effect.h"
-#include "studies/prove/prove.h"
+#include "parts/prove/defects.h"
+#include "parts/prove/effect.h"
+#include "parts/prove/prove.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/evidence/reference.h"

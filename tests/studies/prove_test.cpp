@@ -1,9 +1,9 @@
 // Tests of the checks themselves: defects are caught, wrong parameters are seen, and random machines pass.
 
-#include "studies/prove/prove.h"
+#include "parts/prove/prove.h"
 #include "base/start_threads.h"
 #include "model/instants.h"
-#include "report/report.h"
+#include "report/files/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@
 #include <map>
 #include <set>
 
-#include "studies/prove/defects.h"
-#include "studies/random/random_scenario.h"
+#include "parts/prove/defects.h"
+#include "parts/random/random_scenario.h"
 #include "tests/support/whole.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"

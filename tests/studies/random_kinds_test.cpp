@@ -8,7 +8,7 @@
 #include <set>
 
 #include "model/machine_numbers.h"
-#include "nocsolver/solver.h"
+#include "parts/fast/solver.h"
 #include "tests/studies/drawn_scenarios.h"
 #include "tests/support/vectors.h"
 #include "tests/validation/scenario_numbers.h"

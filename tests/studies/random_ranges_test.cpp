@@ -1,4 +1,4 @@
-// The ranges of random scenarios: checks the claims of studies/random/random_scenario.h on many draws. Nothing is
+// The ranges of random scenarios: checks the claims of parts/random/random_scenario.h on many draws. Nothing is
 // validated.
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 #include <functional>
 #include <set>
 
-#include "nocsolver/solver.h"
+#include "parts/fast/solver.h"
 #include "tests/studies/drawn_scenarios.h"
 #include "validation/limits/conditioning.h"
 

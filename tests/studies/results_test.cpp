@@ -8,8 +8,8 @@
 #include <set>
 
 #include "base/csv.h"
-#include "report/report.h"
-#include "report/written_files.h"
+#include "report/files/report.h"
+#include "report/files/written_files.h"
 #include "validation/validate.h"
 
 namespace ursula {

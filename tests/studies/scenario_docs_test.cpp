@@ -1,13 +1,13 @@
 // docs/scenario.md, docs/scenario.schema.json and docs/checks.md agree with their tables; ./dev docs writes them.
 
-#include "studies/scenario_docs/scenario_docs.h"
+#include "parts/scenario_docs/scenario_docs.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "model/scenario_keys.h"
-#include "report/result_facts.h"
+#include "report/text/result_facts.h"
 #include "tests/base/temporary_folder.h"
 #include "tests/support/matchers.h"
 

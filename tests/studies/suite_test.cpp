@@ -1,6 +1,6 @@
 // Suites: their files, and refusals before anything is computed. tests/end_to_end/ has whole runs.
 
-#include "studies/suite/suite.h"
+#include "apps/suite/suite.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/sweep/sweep_database.h"
+#include "parts/sweep/sweep_database.h"
 
 namespace ursula::test {
 

@@ -1,7 +1,7 @@
 // The fast kernels in 50 digits, only for tests.
 
 #include "base/real50.h"
-#include "nocsolver/fast/fast_dynamics_impl.h"
+#include "parts/fast/fast_dynamics_impl.h"
 
 namespace ursula {
 template class FastDynamics<Real50>;

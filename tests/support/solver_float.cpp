@@ -1,6 +1,6 @@
 // The solver in single precision, only for tests.
 
-#include "nocsolver/fast/fast_dynamics_impl.h"
+#include "parts/fast/fast_dynamics_impl.h"
 #include "nocsolver/legs/leg_model_impl.h"
 #include "nocsolver/noc/noc_joints_impl.h"
 

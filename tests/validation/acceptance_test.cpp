@@ -7,8 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "report/report.h"
-#include "report/written_files.h"
+#include "report/files/report.h"
+#include "report/files/written_files.h"
 #include "tests/support/matchers.h"
 #include "tests/support/numbers.h"
 #include "tests/validation/checks.h"

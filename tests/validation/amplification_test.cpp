@@ -12,7 +12,7 @@
 #include <limits>
 
 #include "model/trajectories/trajectories.h"
-#include "nocsolver/solver.h"
+#include "parts/fast/solver.h"
 #include "tests/support/vectors.h"
 
 namespace ursula {

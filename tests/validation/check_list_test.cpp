@@ -7,7 +7,7 @@
 
 #include "model/check_catalogue.h"
 #include "model/instants.h"
-#include "report/report.h"
+#include "report/files/report.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/families.h"

@@ -9,7 +9,7 @@
 
 #include "model/exact_trajectory.h"
 #include "model/trajectories/trajectories.h"
-#include "studies/random/random_scenario.h"
+#include "parts/random/random_scenario.h"
 #include "tests/support/numbers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"

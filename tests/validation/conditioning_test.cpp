@@ -2,7 +2,7 @@
 // within the limits, which are not much larger.
 
 #include "validation/limits/conditioning.h"
-#include "nocsolver/solver.h"
+#include "parts/fast/solver.h"
 
 #include <gtest/gtest.h>
 

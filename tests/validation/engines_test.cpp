@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engines/mujoco/mujoco_loop.h"
+#include "parts/engines/mujoco/mujoco_loop.h"
 #include "model/instants.h"
 #include "nocsolver/errors.h"
 #include "tests/support/matchers.h"

@@ -10,7 +10,7 @@
 #include <functional>
 
 #include "base/real50.h"
-#include "nocsolver/solver.h"
+#include "parts/fast/solver.h"
 #include "tests/support/motions.h"
 #include "tests/validation/scenario_files.h"
 #include "tests/validation/transformed_numbers.h"

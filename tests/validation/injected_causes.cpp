@@ -10,7 +10,7 @@
 #include "tests/support/motions.h"
 #include "tests/validation/external_torques.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/causes/diagnosis.h"
+#include "parts/causes/diagnosis.h"
 
 namespace ursula {
 namespace {

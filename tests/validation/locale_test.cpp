@@ -10,7 +10,7 @@
 #include "base/text.h"
 #include "model/scenario.h"
 #include "nocsolver/errors.h"
-#include "report/report.h"
+#include "report/files/report.h"
 #include "tests/base/temporary_folder.h"
 #include "tests/model/quick_scenario.h"
 #include "validation/validate.h"

@@ -7,7 +7,7 @@
 #include <new>
 
 #include "nocsolver/errors.h"
-#include "studies/simulate/simulate.h"
+#include "parts/simulate/simulate.h"
 #include "tests/model/quick_scenario.h"
 #include "validation/replay/replay.h"
 #include "validation/subject/subject.h"

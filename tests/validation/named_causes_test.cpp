@@ -8,8 +8,8 @@
 #include <set>
 
 #include "tests/validation/wrong_solvers.h"
-#include "validation/causes/explanation.h"
-#include "validation/mistakes/tied_parameters.h"
+#include "parts/causes/explanation.h"
+#include "parts/causes/mistakes/tied_parameters.h"
 
 namespace ursula {
 namespace {

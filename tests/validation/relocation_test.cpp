@@ -8,8 +8,8 @@
 
 #include "model/exact_trajectory.h"
 #include "model/trajectories/trajectories.h"
-#include "nocsolver/solver.h"
-#include "studies/random/random_scenario.h"
+#include "parts/fast/solver.h"
+#include "parts/random/random_scenario.h"
 #include "tests/validation/scenario_files.h"
 #include "tests/validation/transformed_numbers.h"
 

@@ -12,7 +12,7 @@
 
 #include "base/real50.h"
 #include "nocsolver/noc/noc.h"
-#include "studies/random/random_scenario.h"
+#include "parts/random/random_scenario.h"
 #include "tests/support/changed.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/subject/frame_change.h"

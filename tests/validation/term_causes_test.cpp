@@ -1,6 +1,6 @@
 // Terms and loops of machines of every kind: taken together they are the NOC's efforts, and each mistake changes these.
 
-#include "validation/mistakes/tried_causes.h"
+#include "parts/causes/mistakes/tried_causes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 #include "nocsolver/errors.h"
 #include "tests/validation/wrong_solvers.h"
-#include "validation/causes/fits.h"
+#include "parts/causes/fits.h"
 #include "validation/limits/conditioning.h"
 
 namespace ursula {

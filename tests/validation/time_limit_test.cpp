@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "model/trajectories/trajectories.h"
-#include "report/report.h"
-#include "report/written_files.h"
+#include "report/files/report.h"
+#include "report/files/written_files.h"
 #include "tests/support/matchers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"

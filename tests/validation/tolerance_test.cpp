@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "report/report.h"
+#include "report/files/report.h"
 #include "tests/support/matchers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/external_torques.h"

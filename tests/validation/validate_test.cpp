@@ -11,8 +11,8 @@
 #include <cmath>
 
 #include "nocsolver/errors.h"
-#include "report/report.h"
-#include "report/written_files.h"
+#include "report/files/report.h"
+#include "report/files/written_files.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/evidence/reference.h"

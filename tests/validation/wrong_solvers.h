@@ -12,9 +12,9 @@
 #include "tests/support/changed.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
-#include "validation/causes/asked_apart.h"
-#include "validation/causes/diagnosis.h"
-#include "validation/mistakes/tried_causes.h"
+#include "parts/causes/asked_apart.h"
+#include "parts/causes/diagnosis.h"
+#include "parts/causes/mistakes/tried_causes.h"
 #include "validation/subject/torque_file.h"
 
 namespace ursula {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "base/real50.h"
-#include "nocsolver/solver.h"
+#include "parts/fast/solver.h"
 #include "validation/limits/conditioning.h"
 
 namespace ursula {

@@ -6,7 +6,7 @@
 
 #include "base/deadline.h"
 #include "base/start_threads.h"
-#include "engines/further_engines.h"
+#include "parts/engines/further_engines.h"
 #include "validation/checks/judges.h"
 #include "validation/replay/windowed_replay.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "engines/further_engines.h"
+#include "parts/engines/further_engines.h"
 #include "validation/checks/judges.h"
 #include "validation/limits/conditioning.h"
 #include "validation/limits/rounding_profile.h"

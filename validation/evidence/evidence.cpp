@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/deadline.h"
-#include "engines/simbody/simbody_loop.h"
+#include "simbody/simbody_loop.h"
 #include "validation/replay/observed_order.h"
 #include "validation/replay/windows.h"
 #include "validation/subject/subject.h"

@@ -7,7 +7,7 @@
 
 #include "base/deadline.h"
 #include "base/scalar.h"
-#include "engines/simbody/simbody_loop.h"
+#include "simbody/simbody_loop.h"
 #include "model/scenario.h"
 #include "validation/replay/windows.h"
 #include "validation/samples/pointwise.h"

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "engines/further_engines.h"
+#include "parts/engines/further_engines.h"
 #include "model/joint_variables.h"
 #include "model/scenario.h"
 #include "validation/replay/replay.h"

@@ -4,8 +4,8 @@
 
 #include "base/provenance.h"
 #include "base/sha1.h"
-#include "engines/mujoco/mujoco_loop.h"
-#include "nocsolver/fast/instruction_set.h"
+#include "parts/engines/mujoco/mujoco_loop.h"
+#include "parts/fast/instruction_set.h"
 #include "validation/findings/findings.h"
 #include "validation/replay/replay.h"
 #include "validation/verdict/effort_words.h"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <memory>
 
-#include "engines/further_engines.h"
+#include "parts/engines/further_engines.h"
 #include "model/load.h"
 #include "model/manipulator.h"
 #include "model/motion.h"

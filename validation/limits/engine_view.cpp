@@ -1,6 +1,6 @@
 #include "validation/limits/engine_view.h"
 
-#include "engines/simbody/simbody_loop.h"
+#include "simbody/simbody_loop.h"
 #include "validation/verdict/worst_share.h"
 
 namespace ursula {

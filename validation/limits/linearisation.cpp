@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nocsolver/solver.h"
+#include "parts/fast/solver.h"
 
 namespace ursula {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engines/simbody/simbody_loop.h"
+#include "simbody/simbody_loop.h"
 
 namespace ursula {
 

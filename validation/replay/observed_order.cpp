@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "engines/simbody/simbody_loop.h"
+#include "simbody/simbody_loop.h"
 #include "model/manipulator.h"
 #include "validation/replay/replay.h"
 #include "validation/subject/subject.h"

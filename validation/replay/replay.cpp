@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "model/instants.h"
-#include "nocsolver/solver.h"
+#include "parts/fast/solver.h"
 #include "validation/replay/radau.h"
 
 namespace ursula {

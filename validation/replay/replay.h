@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/deadline.h"
-#include "engines/simbody/simbody_loop.h"
+#include "simbody/simbody_loop.h"
 #include "model/scenario.h"
 #include "validation/replay/asked_torques.h"
 

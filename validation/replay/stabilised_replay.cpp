@@ -9,8 +9,8 @@
 #include <cmath>
 #include <new>
 
-#include "engines/simbody/simbody_loop.h"
-#include "nocsolver/solver.h"
+#include "simbody/simbody_loop.h"
+#include "parts/fast/solver.h"
 #include "validation/replay/radau.h"
 #include "validation/replay/windows.h"
 

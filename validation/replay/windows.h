@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "engines/simbody/simbody_loop.h"
+#include "simbody/simbody_loop.h"
 #include "model/scenario.h"
 #include "validation/replay/windowed_replay.h"
 #include "validation/samples/pointwise.h"

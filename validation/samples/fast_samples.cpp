@@ -1,7 +1,7 @@
 #include "validation/samples/fast_samples.h"
 
-#include "nocsolver/fast/batch_dynamics.h"
-#include "nocsolver/fast/fast_dynamics.h"
+#include "parts/fast/batch_dynamics.h"
+#include "parts/fast/fast_dynamics.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {

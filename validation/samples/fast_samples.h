@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "nocsolver/fast/instruction_set.h"
-#include "nocsolver/fast/kernels/machine_model.h"
+#include "parts/fast/instruction_set.h"
+#include "parts/fast/kernels/machine_model.h"
 #include "validation/samples/pointwise.h"
 #include "validation/subject/frame_change.h"
 

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "base/scalar.h"
-#include "engines/simbody/simbody_loop.h"
+#include "simbody/simbody_loop.h"
 #include "validation/subject/frame_change.h"
 
 namespace ursula {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "engines/simbody/simbody_loop.h"
+#include "simbody/simbody_loop.h"
 #include "validation/limits/engine_view.h"
 
 namespace ursula {

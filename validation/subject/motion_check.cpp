@@ -12,7 +12,7 @@
 #include "model/instants.h"
 #include "model/legs/leg_type.h"
 #include "model/scenario_files.h"
-#include "nocsolver/solver.h"
+#include "parts/fast/solver.h"
 
 namespace ursula {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "nocsolver/fast/fast_dynamics.h"
+#include "parts/fast/fast_dynamics.h"
 #include "nocsolver/noc/noc.h"
 
 namespace ursula {

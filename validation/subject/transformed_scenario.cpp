@@ -6,7 +6,7 @@
 #include <random>
 
 #include "model/exact_trajectory.h"
-#include "nocsolver/solver.h"
+#include "parts/fast/solver.h"
 #include "validation/subject/frame_change.h"
 
 namespace ursula {

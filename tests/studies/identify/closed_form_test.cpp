@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "studies/identify/identify.h"
+#include "parts/identify/identify.h"
 #include "tests/studies/identify/synthetic_log.h"
 
 namespace ursula {

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "base/csv.h"
-#include "studies/identify/excite.h"
-#include "studies/identify/identify.h"
+#include "parts/identify/excite.h"
+#include "parts/identify/identify.h"
 #include "tests/studies/identify/paper_machine_log.h"
 #include "tests/studies/identify/random_logs.h"
 #include "tests/support/matchers.h"

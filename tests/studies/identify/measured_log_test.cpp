@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "base/csv.h"
-#include "studies/identify/log_grid.h"
-#include "studies/identify/measured_log.h"
+#include "parts/identify/log_grid.h"
+#include "parts/identify/measured_log.h"
 #include "tests/studies/identify/synthetic_log.h"
 #include "tests/support/matchers.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "model/machine_numbers.h"
-#include "studies/identify/identify.h"
+#include "parts/identify/identify.h"
 #include "tests/studies/identify/synthetic_log.h"
 
 namespace ursula {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "studies/identify/comparison.h"
+#include "parts/identify/comparison.h"
 
 namespace ursula {
 namespace {

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "studies/identify/identify.h"
+#include "parts/identify/identify.h"
 #include "tests/studies/identify/synthetic_log.h"
 
 namespace ursula {

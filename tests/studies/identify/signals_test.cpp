@@ -4,7 +4,7 @@
 #include <random>
 
 #include "base/scalar.h"
-#include "studies/identify/signals.h"
+#include "parts/identify/signals.h"
 
 namespace ursula::identification {
 namespace {

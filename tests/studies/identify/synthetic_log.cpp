@@ -4,9 +4,9 @@
 #include <random>
 
 #include "base/csv.h"
-#include "engines/simbody/simbody_loop.h"
-#include "studies/identify/log_columns.h"
-#include "studies/identify/platform_motion.h"
+#include "simbody/simbody_loop.h"
+#include "parts/identify/log_columns.h"
+#include "parts/identify/platform_motion.h"
 #include "validation/subject/subject.h"
 #include "validation/subject/torque_names.h"
 

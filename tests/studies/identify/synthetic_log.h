@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/scenario.h"
-#include "studies/identify/measured_log.h"
+#include "parts/identify/measured_log.h"
 
 namespace ursula {
 

@@ -1,11 +1,11 @@
 // The input of sbatch, checked by bash itself if bash reads it, and the parts of a sweep still to be submitted.
 // tests/cluster/ tests the whole on a real Slurm.
 
-#include "studies/sweep/slurm.h"
+#include "parts/sweep/slurm.h"
 
 #include <gtest/gtest.h>
 
-#include "studies/sweep/merge.h"
+#include "parts/sweep/merge.h"
 #include "tests/base/temporary_folder.h"
 #include "tests/support/matchers.h"
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "studies/sweep/sweep_database.h"
+#include "parts/sweep/sweep_database.h"
 
 namespace ursula::test {
 

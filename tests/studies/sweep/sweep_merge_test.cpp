@@ -1,6 +1,6 @@
 // Merging databases of shards, and refusals before anything is written.
 
-#include "studies/sweep/merge.h"
+#include "parts/sweep/merge.h"
 
 #include <gtest/gtest.h>
 

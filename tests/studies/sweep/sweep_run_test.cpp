@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "model/instants.h"
-#include "nocsolver/solver.h"
-#include "studies/sweep/merge.h"
-#include "studies/sweep/run.h"
+#include "parts/fast/solver.h"
+#include "parts/sweep/merge.h"
+#include "parts/sweep/run.h"
 #include "tests/studies/sweep/sweeps.h"
 #include "validation/validate.h"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "studies/sweep/sweep_plan.h"
+#include "parts/sweep/sweep_plan.h"
 #include "tests/base/temporary_folder.h"
 
 namespace ursula {

@@ -7,7 +7,7 @@
 #include <csignal>
 #include <map>
 
-#include "studies/sweep/worker_pool.h"
+#include "parts/sweep/worker_pool.h"
 #include "tests/base/temporary_folder.h"
 
 namespace ursula {

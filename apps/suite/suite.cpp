@@ -1,0 +1,154 @@
+#include "apps/suite/suite.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "base/errors.h"
+#include "base/output_folder.h"
+#include "base/start_threads.h"
+#include "model/scenario_excerpt.h"
+#include "model/scenario_files.h"
+#include "report/files/run.h"
+#include "validation/subject/motion_check.h"
+
+namespace ursula {
+namespace {
+
+std::vector<std::filesystem::path> scenariosIn(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".toml" && !entry.is_directory()) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+SuiteMember readMember(const std::filesystem::path& file) {
+  SuiteMember member{file.string(), {}, "", ""};
+  try {
+    member.scenario = readScenarioOrInput(file);
+    member.name = member.scenario->name;
+    tryMotion(*member.scenario);
+  } catch (const ScenarioError& error) {
+    member.error = error.what();  // starts with file:line:column
+    member.at_length = atLength(error);
+  }
+  return member;
+}
+
+void readFolder(const std::filesystem::path& folder, std::vector<SuiteMember>& members) {
+  const std::vector<std::filesystem::path> files = scenariosIn(folder);
+  for (const std::filesystem::path& file : files) members.push_back(readMember(file));
+  if (files.empty())
+    members.push_back(
+        {folder.string(), {}, folder.string() + ": error: no scenario in this folder, expected *.toml", ""});
+}
+
+/// The names become folders next to the suite's own files.
+void checkNames(const std::vector<SuiteMember>& members) {
+  std::map<std::string, std::string> taken;
+  std::vector<std::string> errors;
+  if (members.size() > 1)
+    taken = {{"index.html", "the suite's index"},
+             {"junit.xml", "the suite's JUnit file"},
+             {"suite.json", "the suite's summary"}};
+  for (const SuiteMember& member : members) {
+    if (!member.scenario) continue;
+    const std::string file = member.scenario->file.string();
+    const auto [holder, is_new] = taken.emplace(member.name, file);
+    if (!is_new)
+      errors.push_back(fmt::format("{}: error: name = '{}' is also that of {}, expected a name for each", file,
+                                   member.name, holder->second));
+  }
+  if (!errors.empty()) throw ScenarioError(fmt::format("{}", fmt::join(errors, "\n")));
+}
+
+/// Each free thread takes the next scenario; each writes to its own place.
+class SuiteRun {
+ public:
+  SuiteRun(const std::vector<SuiteMember>& members, OutputFolder& out, const SuiteOptions& options)
+      : members_(members), out_(out), options_(options), entries_(members.size()) {}
+
+  std::vector<SuiteEntry> run() {
+    inParallel(options_.jobs, static_cast<int>(members_.size()), [this](int k) {
+      const auto index = static_cast<std::size_t>(k);
+      entries_[index] = judgeOne(members_[index]);
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ++done_;
+      if (options_.finished) options_.finished(entries_[index], done_);
+    });
+    return std::move(entries_);
+  }
+
+ private:
+  SuiteEntry judgeOne(const SuiteMember& member) {
+    const Stopwatch watch;
+    std::string error = member.error;
+    std::optional<ValidationResult> result;
+    try {
+      if (error.empty()) result = options_.judge(*member.scenario);
+    } catch (const std::bad_alloc&) {
+      error = out_of_memory_for_scenario;
+    } catch (const std::exception& refusal) {
+      error = refusal.what();
+    }
+    if (result) return addResults(*result, out_, member.name, watch.time(), Place::in_suite);
+    SuiteEntry entry;
+    entry.scenario = member.name;
+    entry.error = error;
+    entry.time = watch.time();
+    return entry;
+  }
+
+  const std::vector<SuiteMember>& members_;
+  OutputFolder& out_;
+  const SuiteOptions& options_;
+  std::vector<SuiteEntry> entries_;
+  std::mutex mutex_;  // guards what follows
+  std::size_t done_ = 0;
+};
+
+}  // namespace
+
+std::vector<SuiteMember> readSuite(const std::vector<std::filesystem::path>& arguments) {
+  std::vector<SuiteMember> members;
+  for (const std::filesystem::path& argument : arguments) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(argument, ignored))
+      readFolder(argument, members);
+    else
+      members.push_back(readMember(argument));
+  }
+  checkNames(members);
+  return members;
+}
+
+std::vector<SuiteMember> allOrNothing(std::vector<SuiteMember> members) {
+  std::vector<std::string> errors;
+  for (const SuiteMember& member : members)
+    if (!member.error.empty()) errors.push_back(member.at_length.empty() ? member.error : member.at_length);
+  if (!errors.empty()) throw ScenarioError(fmt::format("{}", fmt::join(errors, "\n")));
+  return members;
+}
+
+std::vector<SuiteEntry> runSuite(const std::vector<SuiteMember>& members, const std::filesystem::path& dir,
+                                 const SuiteOptions& options) {
+  if (options.jobs < 1) throw std::invalid_argument(fmt::format("{} jobs, expected at least 1", options.jobs));
+  OutputFolder out(dir, report::resultsIn);
+  for (const char* file : report::suite_files) out.require(file);
+  for (const SuiteMember& member : members)
+    if (member.scenario) requireResults(out, member.name);
+  std::vector<SuiteEntry> entries = SuiteRun(members, out, options).run();
+  addSuiteIndex(entries, out);
+  out.commit();
+  return entries;
+}
+
+}  // namespace ursula

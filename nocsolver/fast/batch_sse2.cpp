@@ -1,5 +1,0 @@
-#include "nocsolver/fast/kernels/batch_block.h"
-
-namespace ursula::kernel {
-BatchFunctions batchBySse2() { return batchFunctions<xsimd::sse2>(); }
-}  // namespace ursula::kernel

@@ -1,5 +1,0 @@
-#include "nocsolver/fast/fast_dynamics_impl.h"
-
-namespace ursula {
-template class FastDynamics<double>;
-}  // namespace ursula

@@ -1,0 +1,210 @@
+#include "parts/causes/fits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "nocsolver/errors.h"
+
+namespace ursula {
+namespace {
+
+using Rows = std::vector<Vector6d>;
+
+constexpr std::size_t few_instants = 20, most_instants = 200;  // for the choice, for the fit
+constexpr std::size_t likely_causes = 64, best_causes = 12;
+constexpr double difference_step = 1e-5;
+constexpr double may_be_rounding = 2;  ///< limits: one for the given torques, one for the cause's
+
+/// One cause on some instants.
+class Fit {
+ public:
+  Fit(const Cause& cause, const TorqueResidual& data) : cause_(cause), data_(data) {
+    if (!cause.fitted) start(0);
+  }
+
+  /// The cosine between the residual and the cause's effect, of a small x or of a start; 0 if there is no effect. The
+  /// likeliest start becomes x.
+  double likeness() {
+    if (!cause_.fitted) return explained();
+    double best = 0, where = 0;
+    for (const double each : cause_.starts) {
+      start(each);
+      const double like = each == 0 ? likenessOfSlope() : explained();
+      if (like > best) best = like, where = each;
+    }
+    start(where);
+    return best;
+  }
+
+  double likenessOfSlope() const {
+    const Rows slope = slopeAt(0);
+    const double size = norm(slope);
+    if (!(size * difference_step > 1e-12 * norm(data_.exact))) return 0;
+    return std::abs(dot(slope, data_.residual)) / (size * data_.norm());
+  }
+
+  /// Takes at most `steps` Gauss–Newton steps, which may be halved.
+  void improve(int steps) {
+    if (!cause_.fitted) return;
+    for (int k = 0; k < steps && step(); ++k) {
+    }
+  }
+
+  void start(double at) {
+    x_ = at;
+    unexplained_ = unexplainedAt(at);
+  }
+
+  double x() const { return x_; }
+  double unexplained() const { return unexplained_; }
+  double explained() const { return std::sqrt(1 - std::min(1.0, unexplained_ * unexplained_)); }
+
+  Hypothesis hypothesis() {
+    const Rows left = remaining(x_);
+    const double deviation = cause_.fitted ? deviationAt(left) : 0;
+    Hypothesis out{cause_.words(x_, deviation), norm(left) / data_.norm(), cause_.fitted ? 1 : 0};
+    out.beyond = beyond(left);
+    if (cause_.named) out.named = cause_.named(x_, deviation);
+    if (cause_.is_possible) out.is_possible = cause_.is_possible(x_);
+    return out;
+  }
+
+ private:
+  /// The remainder in multiples of its limits, which are wider where the cause's torques round more.
+  double beyond(const Rows& left) const {
+    const double as_of_right_ones = data_.beyond(left) / data_.growth();
+    if (!cause_.rounding) return as_of_right_ones;
+    TorqueResidual wider = data_;
+    for (std::size_t k = 0; k < left.size(); ++k)
+      wider.limit[k] = wider.limit[k].cwiseMax(cause_.rounding(data_.motions[k]));
+    return std::min(as_of_right_ones, wider.beyond(left));
+  }
+
+  /// Returns nullopt if the cause has no torques.
+  std::optional<Rows> torquesAt(double at) const {
+    try {
+      return cause_.torques(at, data_.motions);
+    } catch (const PoseError&) {
+    } catch (const std::invalid_argument&) {
+    }
+    return std::nullopt;
+  }
+
+  Rows remaining(double at) const {
+    const std::optional<Rows> torques = torquesAt(at);
+    Rows out(data_.exact.size(), Vector6d::Constant(HUGE_VAL));
+    for (std::size_t k = 0; torques && k < out.size(); ++k) out[k] = data_.found(k) - (*torques)[k];
+    return out;
+  }
+
+  double unexplainedAt(double at) const { return norm(remaining(at)) / data_.norm(); }
+
+  /// The exact slope at 0 if the cause knows it, otherwise central differences. They are one-sided if a parameter
+  /// cannot decrease.
+  Rows slopeAt(double at) const {
+    if (at == 0 && cause_.slope) return cause_.slope(data_.motions);
+    std::optional<Rows> above = torquesAt(at + difference_step), below = torquesAt(at - difference_step);
+    const double width = above && below ? 2 * difference_step : difference_step;
+    if (!above) above = torquesAt(at);
+    if (!below) below = torquesAt(at);
+    Rows out(data_.exact.size(), Vector6d::Zero());
+    for (std::size_t k = 0; above && below && k < out.size(); ++k) out[k] = ((*above)[k] - (*below)[k]) / width;
+    return out;
+  }
+
+  /// Takes one step; returns false if nothing improves any more.
+  bool step() {
+    const Rows slope = slopeAt(x_);
+    const double size = dot(slope, slope);
+    if (!(size > 0)) return false;
+    double dx = dot(slope, remaining(x_)) / size;
+    for (int halvings = 0; halvings < 8; ++halvings, dx /= 2) {
+      const double there = unexplainedAt(x_ + dx);
+      if (!(there < unexplained_)) continue;
+      x_ += dx;
+      unexplained_ = there;
+      return std::abs(dx) > 1e-14;
+    }
+    return false;
+  }
+
+  /// Two standard deviations of x from the remainder, or from the file's precision (uniform within its limits) if that
+  /// is larger. A remainder with a pattern is another error, of which x may have taken as large a part.
+  double deviationAt(const Rows& left) const {
+    const Rows slope = slopeAt(x_);
+    if (beyond(left) > may_be_rounding && hasPattern(left)) return 2 * std::sqrt(dot(left, left) / dot(slope, slope));
+    double precision = 0;
+    for (const Vector6d& row : data_.limit) precision += row.squaredNorm() / 3;
+    const double numbers = 6 * static_cast<double>(left.size());
+    const double variance = std::max(dot(left, left) / std::max(1.0, numbers - 1), precision / numbers);
+    return 2 * std::sqrt(variance / dot(slope, slope));
+  }
+
+  /// Whether successive remainders along the motion are alike.
+  bool hasPattern(const Rows& left) const {
+    double along = 0, all = 0;
+    for (std::size_t k = 0; k + 1 < data_.commanded; ++k) {
+      along += left[k].dot(left[k + 1]);
+      all += left[k].squaredNorm();
+    }
+    return along > 0.3 * all;
+  }
+
+  const Cause& cause_;
+  const TorqueResidual& data_;
+  double x_ = 0, unexplained_ = 1;
+};
+
+struct Candidate {
+  std::size_t place;  ///< index among the causes
+  double merit, x;
+};
+
+/// Keeps the best by `merit`, in the order of the causes.
+void keepBest(std::vector<Candidate>& candidates, std::size_t most) {
+  if (candidates.size() > most) {
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.merit > b.merit; });
+    candidates.resize(most);
+  }
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.place < b.place; });
+}
+
+}  // namespace
+
+std::vector<Hypothesis> fitCauses(const std::vector<Cause>& causes, const TorqueResidual& data) {
+  const TorqueResidual few = data.picked(few_instants), all = data.picked(most_instants);
+  std::vector<Candidate> candidates;
+  if (!(few.norm() > 0)) return {};
+  for (std::size_t i = 0; i < causes.size(); ++i) {
+    Fit fit(causes[i], few);
+    const double likeness = fit.likeness();
+    if (likeness > 0.2) candidates.push_back({i, likeness, fit.x()});
+  }
+  keepBest(candidates, likely_causes);
+  for (Candidate& candidate : candidates) {
+    Fit fit(causes[candidate.place], few);
+    fit.start(candidate.x);
+    fit.improve(8);
+    candidate = {candidate.place, -fit.unexplained(), fit.x()};
+  }
+  keepBest(candidates, best_causes);
+  std::vector<Hypothesis> out;
+  for (const Candidate& candidate : candidates) {
+    Fit fit(causes[candidate.place], all);
+    fit.start(candidate.x);
+    fit.improve(3);
+    Fit whole(causes[candidate.place], data);  // a claim must hold at every instant
+    whole.start(fit.x());
+    if (std::isfinite(whole.unexplained())) out.push_back(whole.hypothesis());
+  }
+  return out;
+}
+
+}  // namespace ursula

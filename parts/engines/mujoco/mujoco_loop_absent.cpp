@@ -1,0 +1,39 @@
+// Stands in for the formulation if MuJoCo is missing at build time.
+
+#include <stdexcept>
+
+#include "parts/engines/loop_engine.h"
+#include "parts/engines/mujoco/mujoco_loop.h"
+
+namespace ursula {
+namespace {
+
+[[noreturn]] void throwAbsent() { throw std::runtime_error("this was built without MuJoCo"); }
+
+}  // namespace
+
+struct MujocoLoop::Impl {};
+
+MujocoLoop::MujocoLoop(const Manipulator&, std::shared_ptr<const Load>) { throwAbsent(); }
+
+MujocoLoop::~MujocoLoop() = default;
+
+Vector6d MujocoLoop::inverseDynamics(const Motion<double>&) { throwAbsent(); }
+void MujocoLoop::coordinates(const Motion<double>&, const JointMotion&, TreeCoordinates&) const { throwAbsent(); }
+void MujocoLoop::openTree(const TreeCoordinates&, OpenTree&) { throwAbsent(); }
+void MujocoLoop::openTree(const TreeCoordinates&, OpenTree&, OpenTreeMasses&) { throwAbsent(); }
+Vector6d MujocoLoop::twistRate(const TreeCoordinates&, const Vector6d&) const { throwAbsent(); }
+Vector6d MujocoLoop::softTwistRate(const TreeCoordinates&, const Vector6d&) { throwAbsent(); }
+double MujocoLoop::softImpedance() { throwAbsent(); }
+
+bool mujocoAvailable() { return false; }
+
+std::string mujocoVersion() { return "none"; }
+
+std::unique_ptr<Engine> makeMujocoLoop(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
+  return std::make_unique<MujocoLoop>(manipulator, std::move(load));
+}
+
+std::unique_ptr<LoopEngine> makeMujocoCalls(const Manipulator&, std::shared_ptr<const Load>) { throwAbsent(); }
+
+}  // namespace ursula

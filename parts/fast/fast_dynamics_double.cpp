@@ -1,0 +1,5 @@
+#include "parts/fast/fast_dynamics_impl.h"
+
+namespace ursula {
+template class FastDynamics<double>;
+}  // namespace ursula

@@ -1,0 +1,267 @@
+#include "parts/simulate/simulate.h"
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <boost/numeric/odeint.hpp>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <stdexcept>
+
+#include "base/csv.h"
+#include "simbody/simbody_loop.h"
+#include "model/instants.h"
+#include "model/legs/leg_type.h"
+#include "nocsolver/errors.h"
+#include "nocsolver/noc/noc.h"
+#include "parts/fast/solver.h"
+#include "validation/subject/leg_points.h"
+#include "validation/subject/subject.h"
+#include "validation/subject/torque_spline.h"
+
+namespace ursula {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+using OdeState = std::vector<double>;
+
+/// x = [p, q (w, x, y, z), ṗ, ω].
+class NocSystem {
+ public:
+  NocSystem(const Scenario& scenario) : load_(scenario.load), solver_(*scenario.manipulator) {}
+
+  OdeState start(const Motion<double>& motion) const {
+    const Eigen::Quaterniond q(motion.Q);
+    OdeState x(13);
+    Eigen::Map<Eigen::Matrix<double, 13, 1>>(x.data()) << motion.p, q.w(), q.vec(), motion.p_dot, motion.omega;
+    return x;
+  }
+
+  Motion<double> motion(double t, const OdeState& x, const Vector6d& torques) {
+    const Eigen::Map<const Eigen::Matrix<double, 13, 1>> state(x.data());
+    Motion<double> motion;
+    motion.t = t;
+    motion.p = state.segment<3>(0);
+    motion.Q = Eigen::Quaterniond(state(3), state(4), state(5), state(6)).normalized().toRotationMatrix();
+    motion.p_dot = state.segment<3>(7);
+    motion.omega = state.segment<3>(10);
+    const Vector6d found = solver_.directDynamics(motion, torques, work_, loadAtP(load_.get(), motion));
+    last_ = motion;
+    motion.omega_dot = found.head<3>();
+    motion.p_ddot = found.tail<3>();
+    return motion;
+  }
+
+  /// The joints of the last differentiated state.
+  JointVariables<double> joints() {
+    solver_.displacements(last_, work_);
+    return solver_.angles(work_);
+  }
+  /// Checks an accepted step; the solver already refuses poses that a leg cannot reach.
+  void check(double, const OdeState&) const {}
+
+  void derivative(double t, const OdeState& x, const Vector6d& torques, OdeState& rate) {
+    const Motion<double> now = motion(t, x, torques);
+    const Eigen::Quaterniond q(x[3], x[4], x[5], x[6]);
+    const Eigen::Quaterniond spin(0, now.omega.x(), now.omega.y(), now.omega.z());
+    const Eigen::Quaterniond q_dot = spin * q;  // twice q̇, from ω in B
+    Eigen::Map<Eigen::Matrix<double, 13, 1>>(rate.data()) << now.p_dot, q_dot.w() / 2, q_dot.vec() / 2, now.p_ddot,
+        now.omega_dot;
+  }
+
+ private:
+  std::shared_ptr<const Load> load_;
+  Solver<double> solver_;
+  Workspace<double> work_;
+  Motion<double> last_;  ///< the last motion that the solver accepted
+};
+
+/// Detects the end of the legs' reach from their joint variables.
+struct ReachEnds {
+  explicit ReachEnds(const Manipulator& machine) : legs(machine.parameters().legs) {}
+
+  double of(const JointVariables<double>& q, int i) const {
+    const Leg& leg = legs[static_cast<std::size_t>(i)];
+    return typeOf(leg.kind).margin(leg, q, i);
+  }
+
+  std::runtime_error outOfReach(const JointVariables<double>& q, int i, double t) const {
+    return std::runtime_error(fmt::format("the motion leaves what leg {} reaches: it is {} at t = {:.9g} s", i + 1,
+                                          typeOf(legs[static_cast<std::size_t>(i)].kind).endOfReach(q, i), t));
+  }
+
+  std::vector<Leg> legs;
+};
+
+/// A leg whose knee bends the other way has passed its stretched or folded pose, the end of its reach. The same holds
+/// for a rod outside its cylinder.
+void checkKnees(const ReachEnds& ends, const JointVariables<double>& before, const JointVariables<double>& now,
+                double t) {
+  for (std::size_t k = 0; k < ends.legs.size(); ++k)
+    if (const int i = static_cast<int>(k); ends.of(before, i) * ends.of(now, i) <= 0) throw ends.outOfReach(now, i, t);
+}
+
+/// If a margin is smaller than this, the end of reach causes the shrinking steps.
+constexpr double at_edge = 1e-3;
+
+void stopped(const ReachEnds& ends, const JointVariables<double>& q, double t) {
+  for (std::size_t k = 0; k < ends.legs.size(); ++k)
+    if (const int i = static_cast<int>(k); std::abs(ends.of(q, i)) < at_edge) throw ends.outOfReach(q, i, t);
+  throw std::runtime_error(fmt::format("the steps shrink to nothing at t = {:.9g} s", t));
+}
+
+class SimbodySystem {
+ public:
+  SimbodySystem(const Scenario& scenario)
+      : loop_(*scenario.manipulator, SimbodyLoop::Topology::ball_per_leg, scenario.load),
+        ends_(*scenario.manipulator) {}
+
+  OdeState start(const Motion<double>& motion) {
+    start_ = loop_.place(motion).q;
+    return loop_.state();
+  }
+
+  Motion<double> motion(double t, const OdeState& x, const Vector6d& torques) {
+    loop_.setState(t, x.data());
+    loop_.accelerate(torques);
+    return loop_.platform();
+  }
+
+  void derivative(double t, const OdeState& x, const Vector6d& torques, OdeState& rate) {
+    loop_.derivative(t, x.data(), torques, rate.data());
+  }
+
+  /// The joints of the last differentiated state.
+  JointVariables<double> joints() const { return loop_.joints().q; }
+  /// Checks an accepted step.
+  void check(double t, const OdeState& x) {
+    loop_.setState(t, x.data());
+    checkKnees(ends_, start_, joints(), t);
+  }
+
+ private:
+  SimbodyLoop loop_;
+  ReachEnds ends_;
+  JointVariables<double> start_;  ///< of the commanded state
+};
+
+/// Ends the run if steps shrink to nothing.
+class Progress {
+ public:
+  explicit Progress(const std::vector<double>& instants)
+      : since_(instants.front()), least_(1e-3 * (instants.back() - instants.front())) {}
+
+  /// Called at each evaluation; returns false if `patience` of them advanced less than a thousandth of the time.
+  bool goesOn(double t) {
+    if (++evaluations_ % patience != 0) return true;
+    const double gained = t - since_;
+    since_ = t;
+    return gained > least_;
+  }
+
+ private:
+  static constexpr long patience = 20'000;
+  double since_, least_;
+  long evaluations_ = 0;
+};
+
+template <class System>
+Simulation integrate(System system, const Scenario& scenario, const EffortHistory& torques,
+                     const std::vector<double>& instants, double tolerance, const Deadline& deadline) {
+  Simulation out;
+  OdeState x = system.start(scenario.trajectory->at(instants.front()));
+  auto stepper = odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_fehlberg78<OdeState>());
+  Progress progress(instants);
+  const auto derivative = [&](const OdeState& at, OdeState& rate, double t) {
+    ++out.evaluations;
+    deadline.require();
+    system.derivative(t, at, torques(t), rate);
+    for (double value : rate)
+      if (!std::isfinite(value)) throw std::runtime_error(fmt::format("derivatives not finite at t = {} s", t));
+    if (!progress.goesOn(t)) stopped(ReachEnds(*scenario.manipulator), system.joints(), t);
+  };
+  double t = instants.front(), dt = (instants.back() - instants.front()) / 128;
+  try {
+    for (double instant : instants) {
+      while (instant - t > std::numeric_limits<double>::epsilon() * std::abs(instant)) {
+        double step = std::min(dt, instant - t);
+        const bool cut = step < dt;
+        const auto outcome = stepper.try_step(derivative, x, t, step);
+        dt = cut && outcome == odeint::success ? std::max(dt, step) : step;
+        if (outcome == odeint::success) system.check(t, x);
+      }
+      const Vector6d now = torques(instant);
+      const Motion<double> motion = system.motion(instant, x, now);
+      requireFinite(motion);
+      out.torques.push_back(now);
+      out.motions.push_back(motion);
+    }
+  } catch (const std::bad_alloc&) {
+    throw;  // a lack of memory says nothing about the motion
+  } catch (const std::exception& error) {
+    out.gave_up = error.what();  // the completed part is still reported
+  }
+  return out;
+}
+
+}  // namespace
+
+Simulation simulate(const Scenario& scenario, SimulationEngine engine, const EffortHistory& torques,
+                    const std::vector<double>& instants, double tolerance, const Deadline& deadline) {
+  return engine == SimulationEngine::noc
+             ? integrate(NocSystem(scenario), scenario, torques, instants, tolerance, deadline)
+             : integrate(SimbodySystem(scenario), scenario, torques, instants, tolerance, deadline);
+}
+
+Simulation simulate(const Scenario& scenario, SimulationEngine engine, const TorqueFile& torques,
+                    const Deadline& deadline) {
+  if (torques.rows() < TorqueSpline::least_samples)
+    throw CsvError(fmt::format("{}: error: {} instant{}, expected at least {} to interpolate between",
+                               torques.file.string(), torques.rows(), torques.rows() == 1 ? "" : "s",
+                               TorqueSpline::least_samples));
+  const TorqueSpline spline(torques.t, torques.torques);
+  return simulate(scenario, engine, spline, torques.t, scenario.simulation.tolerance, deadline);
+}
+
+namespace {
+
+/// The points of one instant, in the order of the columns: p, then A, R, B of each leg.
+std::vector<Vector3d> points(const Manipulator& machine, const Noc<double>& solver, const Motion<double>& motion) {
+  NocWorkspace<double> work;
+  solver.displacements(motion, work);
+  std::vector<Vector3d> all = {motion.p};
+  for (const LegPoints& leg : legPoints(machine, work)) all.insert(all.end(), {leg.A, leg.R, leg.B});
+  return all;
+}
+
+std::vector<std::string> pointNames(int legs) {
+  std::vector<std::string> names = {"p"};
+  for (int i = 1; i <= legs; ++i)
+    for (const char* point : {"A", "R", "B"}) names.push_back(fmt::format("{}_{}", point, i));
+  return names;
+}
+
+}  // namespace
+
+TimeSeries poseSeries(const Scenario& scenario, int count) {
+  const Manipulator& machine = *scenario.manipulator;
+  const Noc<double> solver(machine);
+  const std::vector<double> instants = equallySpaced(scenario.trajectory->duration(), count);
+  std::vector<std::vector<Vector3d>> rows;
+  rows.reserve(instants.size());
+  for (double t : instants) rows.push_back(points(machine, solver, scenario.trajectory->at(t)));
+  TimeSeries series;
+  series.add("t_s", instants);
+  const std::vector<std::string> names = pointNames(machine.legCount());
+  for (std::size_t k = 0; k < names.size(); ++k)
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> column;
+      column.reserve(rows.size());
+      for (const std::vector<Vector3d>& row : rows) column.push_back(row[k](axis));
+      series.add(fmt::format("{}_{}_m", names[k], "xyz"[axis]), std::move(column));
+    }
+  return series;
+}
+
+}  // namespace ursula

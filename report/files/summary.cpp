@@ -1,0 +1,107 @@
+#include "report/files/written_files.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/files/report.h"
+#include "report/text/result_facts.h"
+
+namespace ursula::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// nlohmann::json writes null for numbers that are not finite.
+Json checkJson(const Check& check) {
+  return {{"name", check.name},
+          {"value", check.value},
+          {"limit", check.limit},
+          {"unit", check.unit},
+          {"verdict", name(check.verdict)},
+          {"basis", check.basis},
+          {"why", whyInFull(check)},
+          {"reason", name(check.reason)},
+          {"limit_by", name(check.limit_by)},
+          {"could_have_missed", check.missed},
+          {"largest", {{"value", check.largest.value}, {"t_s", check.largest.t}, {"where", check.largest.where}}}};
+}
+
+Json deviationJson(const EffortDeviation& deviation) {
+  return {{"largest", deviation.largest},
+          {"relative", deviation.relative()},
+          {"t_s", deviation.t},
+          {"where", deviation.where},
+          {"largest_effort", deviation.largest_effort},
+          {"smallest_rtol", deviation.smallestRelative()},
+          {"drift_m", deviation.drift},
+          {"would_have_been_seen", deviation.seen},
+          {"allowed", deviation.allowed}};
+}
+
+// A repeated key keeps both texts.
+Json object(const std::vector<std::pair<std::string, std::string>>& facts) {
+  Json json = Json::object();
+  for (const auto& [key, text] : facts) {
+    json[key] = json.contains(key) ? json[key].get<std::string>() + "; " + text : text;
+  }
+  return json;
+}
+
+// Fields that do not apply are omitted.
+Json causeJson(const NamedCause& cause) {
+  Json json = {{"kind", name(cause.kind)}};
+  const auto addText = [&](const char* key, const std::string& text) {
+    if (!text.empty()) json[key] = text;
+  };
+  const auto addNumber = [&](const char* key, const std::optional<double>& number) {
+    if (number) json[key] = *number;
+  };
+  addText("term", cause.term);
+  addText("body", cause.body);
+  if (cause.leg > 0) json["leg"] = cause.leg;
+  if (cause.motor > 0) json["motor"] = cause.motor;
+  if (!cause.legs.empty()) json["legs"] = cause.legs;
+  addText("parameter", cause.parameter);
+  addNumber("expected", cause.expected);
+  addNumber("found", cause.found);
+  addNumber("uncertainty", cause.uncertainty);
+  addText("unit", cause.unit);
+  addNumber("from_s", cause.from_s);
+  addNumber("to_s", cause.to_s);
+  if (std::isfinite(cause.explained)) json["explained"] = cause.explained;
+  return json;
+}
+
+void addCauses(const ValidationResult& result, Json& summary) {
+  summary["cause"] = result.cause ? causeJson(*result.cause) : Json();
+  summary["causes"] = Json::array();
+  for (const NamedCause& other : result.causes) summary["causes"].push_back(causeJson(other));
+  summary["terms"] = Json::array();
+  for (const TermError& each : result.terms) summary["terms"].push_back({{"term", each.term}, {"error", each.error}});
+}
+
+}  // namespace
+
+std::string summaryJson(const ValidationResult& result) {
+  Json checks = Json::array();
+  for (const Check& check : result.checks) checks.push_back(checkJson(check));
+  const std::string deviation = deviationSentence(result);
+  Json summary = {{"scenario", result.scenario},
+                  {"verdict", name(result.verdict)},
+                  {"formulation", name(result.subject.formulation)},
+                  {"limits", name(result.limits)},
+                  {"reason", reason(result.verdict, result.checks) + (deviation.empty() ? "" : " ") + deviation},
+                  {"checks", checks},
+                  {"findings", object(findingTexts(result))},
+                  {"provenance", object(result.provenance)}};
+  if (result.deviation) summary["deviation"] = deviationJson(*result.deviation);
+  addCauses(result, summary);
+  return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string errorJson(const std::string& scenario, const std::string& error) {
+  const Json json = {{"scenario", scenario}, {"verdict", "error"}, {"error", error}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace ursula::report

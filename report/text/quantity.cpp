@@ -1,0 +1,123 @@
+#include "report/text/quantity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <regex>
+#include <utility>
+
+#include "base/text.h"
+#include "report/text/text.h"
+
+namespace ursula::report {
+namespace {
+
+const std::string joined = "\u00A0";  // keeps a number and its unit on one line
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+  return text;
+}
+
+std::string superscript(int exponent) {
+  const char* const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string out = exponent < 0 ? "⁻" : "";
+  for (const char digit : std::to_string(std::abs(exponent))) out += digits[digit - '0'];
+  return out;
+}
+
+bool takesPrefix(const std::string& unit) {
+  const std::string first = unit.substr(0, unit.find_first_of("·/ "));
+  return first == "m" || first == "N" || first == "J" || first == "rad" || first == "s" || first == "W";
+}
+
+/// Rounds to `digits`, without an exponent if the text is short.
+std::string rounded(double value, int digits) {
+  const std::string text = fmt::format("{:.{}g}", value, digits);
+  return text.find('e') == std::string::npos ? text : fmt::format("{:.0f}", leadingNumber(text).value);
+}
+
+}  // namespace
+
+std::string prettyUnit(const std::string& unit) {
+  const std::pair<const char*, const char*> columns[] = {
+      {"Nm", "N·m"}, {"m_s2", "m/s²"}, {"m_s", "m/s"}, {"rad_s2", "rad/s²"}, {"rad_s", "rad/s"}};
+  for (const auto& [from, to] : columns)
+    if (unit == from) return to;
+  return replaced(replaced(unit, "N m", "N·m"), "^2", "²");
+}
+
+std::string quantity(double value, const std::string& unit, int digits) {
+  const std::string pretty = prettyUnit(unit);
+  if (!std::isfinite(value)) return number(value);
+  if (value == 0) return pretty.empty() ? "0" : "0" + joined + pretty;
+  if (pretty.empty() || !takesPrefix(pretty))
+    return plainNumber(value, digits) + (pretty.empty() ? "" : joined + pretty);
+  const std::array<const char*, 9> prefixes = {"f", "p", "n", "µ", "m", "", "k", "M", "G"};
+  // Uses the rounded value: 999.96 is 1.00 k.
+  const double shown = leadingNumber(fmt::format("{:.{}e}", value, digits - 1)).value;
+  const int thousands = static_cast<int>(std::floor(std::log10(std::abs(shown)) / 3 + 1e-9));
+  const bool small = pretty == "rad" || pretty == "s" || pretty.find("rad/") == 0;  // no kilo and larger prefixes
+  const int highest = small ? 0 : 3;
+  if (thousands < -5 || thousands > 3) return plainNumber(value, digits) + joined + pretty;
+  const int used = std::min(thousands, highest);
+  return fmt::format("{}{}{}{}", rounded(shown / std::pow(1000.0, used), digits), joined,
+                     prefixes[static_cast<std::size_t>(used + 5)], pretty);
+}
+
+std::string plainNumber(double value, int digits) {
+  if (!std::isfinite(value)) return number(value);
+  if (value == 0) return "0";
+  const double size = std::abs(value);
+  if (size >= 1e-3 && size < 99999.5) return rounded(value, digits);
+  return powersInPrint(fmt::format("{:.{}e}", value, digits - 1));
+}
+
+std::string powersInPrint(const std::string& text) {
+  static const std::regex power("(\\d+)(?:\\.0+|(\\.\\d*[1-9])0*)?e([+-]?\\d+)");
+  std::string out;
+  std::ptrdiff_t from = 0;
+  for (std::sregex_iterator at(text.begin(), text.end(), power), none; at != none; ++at) {
+    const std::string mantissa = (*at)[1].str() + (*at)[2].str();
+    out += text.substr(static_cast<std::size_t>(from), static_cast<std::size_t>(at->position() - from));
+    out += (mantissa == "1" ? "" : mantissa + joined + "×" + joined) + "10" + superscript(std::stoi((*at)[3]));
+    from = at->position() + at->length();
+  }
+  return out + text.substr(static_cast<std::size_t>(from));
+}
+
+std::string formulaInPrint(const std::string& text) {
+  static const std::regex eps("\\beps\\b");
+  std::string out = std::regex_replace(powersInPrint(text), eps, "ε");
+  for (const auto& [from, to] : {std::pair("kappa(", "κ("),
+                                 {" x ", " × "},
+                                 {"||", "‖"},
+                                 {"inv(I)", "I⁻¹"},
+                                 {"|T|'", "|T|ᵀ"},
+                                 {"^2", "²"},
+                                 {" +- ", " ± "}})
+    out = replaced(out, from, to);
+  return out;
+}
+
+std::string percentText(double share) {
+  return share < 0.1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
+}
+
+int digitsToTell(double low, double high) {
+  constexpr int fewest = 4, most = 15;
+  const double ratio = std::max(std::abs(low), std::abs(high)) / (high - low);
+  if (!(ratio > 1) || !std::isfinite(ratio)) return fewest;
+  return std::clamp(static_cast<int>(std::ceil(std::log10(ratio))) + 2, fewest, most);
+}
+
+std::string inWords(int count) {
+  const char* const words[] = {"no",    "one",   "two",  "three", "four",   "five",  "six",
+                               "seven", "eight", "nine", "ten",   "eleven", "twelve"};
+  return count >= 0 && count <= 12 ? words[count] : std::to_string(count);
+}
+
+}  // namespace ursula::report

@@ -1,0 +1,261 @@
+#include "report/text/terminal.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/text.h"
+#include "model/check_catalogue.h"
+#include "report/text/quantity.h"
+#include "report/text/result_facts.h"
+#include "report/page/sections.h"
+#include "report/text/text.h"
+#include "report/files/written_files.h"
+#include "validation/verdict/effort_words.h"
+
+namespace ursula::report {
+namespace {
+
+constexpr std::size_t verdict_width = 12;  // "inconclusive"
+
+Paint paintOf(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::pass:
+      return Paint::good;
+    case Verdict::fail:
+      return Paint::bad;
+    case Verdict::inconclusive:
+      return Paint::open;
+    case Verdict::not_applicable:
+      break;
+  }
+  return Paint::quiet;
+}
+
+std::string paintedVerdict(Verdict verdict, bool coloured) {
+  return painted(name(verdict), paintOf(verdict), coloured);
+}
+
+bool isShown(const Check& check) {
+  return check.verdict != Verdict::not_applicable || check.reason == Reason::reported;
+}
+
+/// Whether the check needs attention, so that its explanation is shown.
+bool isOpen(const Check& check) { return check.verdict == Verdict::fail || check.verdict == Verdict::inconclusive; }
+
+std::string numberText(double value) {
+  if (std::isnan(value)) return "–";
+  return std::isinf(value) ? "infinite" : fmt::format("{:.3g}", value);
+}
+
+/// The value's share of its limit; empty if they did not decide the check.
+std::string limitShareText(const Check& check) {
+  const double share = limitShare(check);
+  if (check.verdict == Verdict::inconclusive || check.verdict == Verdict::not_applicable || std::isnan(share))
+    return "";
+  if (std::isinf(share)) return "beyond";
+  if (share > 1) return share < 1000 ? fmt::format("{:.3g} times", share) : fmt::format("{:.1e} times", share);
+  return share == 0 ? "0 %" : share < 1e-4 ? "< 0.01 %" : fmt::format("{:.2g} %", 100 * share);
+}
+
+/// A value that mixes forces and moments has no readable unit, so only the share is shown.
+std::vector<std::string> tableRow(const Check& check) {
+  const bool mixed = check.unit.find(',') != std::string::npos;
+  const bool none = std::isnan(check.value) && std::isnan(check.limit);
+  const std::string value = mixed || none ? "" : numberText(check.value);
+  const std::string limit = mixed || none || check.reason == Reason::reported ? "" : numberText(check.limit);
+  return {check.name, value, limit, mixed || none ? "" : prettyUnit(check.unit), limitShareText(check)};
+}
+
+std::string verdictWord(const Check& check) {
+  return check.reason == Reason::reported ? "not judged" : std::string(name(check.verdict));
+}
+
+/// The reason in one line; the cause is printed once, below.
+std::string whyLine(const Check& check) {
+  std::string why = check.why;
+  std::replace(why.begin(), why.end(), '\n', ' ');
+  if (!why.empty()) return why;
+  return std::isnan(check.value) ? "it has no value" : standing(check);
+}
+
+std::string indented(std::size_t columns, const std::string& text) { return std::string(columns, ' ') + text + "\n"; }
+
+/// Returns a group's text, in which adjacent checks with the same reason share its line.
+std::string groupText(const std::vector<const Check*>& checks, const std::vector<std::string>& lines, bool coloured) {
+  std::string out;
+  for (std::size_t k = 0; k < checks.size(); ++k) {
+    const Check& check = *checks[k];
+    const Paint paint = check.reason == Reason::reported ? Paint::quiet : paintOf(check.verdict);
+    out += "  " + painted(padded(verdictWord(check), verdict_width), paint, coloured) + "  " + lines[k] + "\n";
+    if (!isOpen(check)) continue;
+    const std::string why = whyLine(check);
+    const bool said_next = k + 1 < checks.size() && isOpen(*checks[k + 1]) && whyLine(*checks[k + 1]) == why;
+    if (!said_next) out += indented(verdict_width + 4, painted(why, paint, coloured));
+  }
+  return out;
+}
+
+std::string checksTable(const ValidationResult& result, bool coloured) {
+  std::vector<std::vector<const Check*>> groups(checkGroups().size() + 1);
+  for (const Check& check : result.checks)
+    if (isShown(check)) groups[groupOf(check.name)].push_back(&check);
+  std::vector<std::vector<std::string>> rows = {{"", "value", "limit", "unit", "of limit"}};
+  for (const auto& group : groups)
+    for (const Check* check : group) rows.push_back(tableRow(*check));
+  const std::vector<std::string> lines =
+      alignedRows(rows, {Align::left, Align::right, Align::right, Align::left, Align::right});
+  std::string out = indented(verdict_width + 4, painted(lines.front(), Paint::quiet, coloured));
+  auto line = lines.begin() + 1;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    if (groups[k].empty()) continue;
+    const auto end = line + static_cast<std::ptrdiff_t>(groups[k].size());
+    const std::string title = k < checkGroups().size() ? checkGroups()[k] : "Further checks";
+    out += painted(inEffortWords(result.effort, title), Paint::strong, coloured) + "\n";
+    out += groupText(groups[k], {line, end}, coloured);
+    line = end;
+  }
+  return out;
+}
+
+std::string notApplicableText(const std::vector<Check>& checks) {
+  std::map<std::string, std::string> names;  // keyed by reason
+  for (const Check& check : checks) {
+    if (isShown(check)) continue;
+    std::string& of = names[check.why];
+    of += (of.empty() ? "" : ", ") + check.name;
+  }
+  std::string out;
+  for (const auto& [why, which] : names) out += wrapped(fmt::format("not applicable, since {}: ", why), 2, which);
+  return out.empty() ? "" : "\n" + out;
+}
+
+/// The deviation of each motor as a table, because six of them in one line are unreadable.
+std::string motorsText(const std::vector<MotorDeviation>& motors) {
+  std::vector<std::vector<std::string>> rows = {{"motor", "off by", "at t", "factor", "offset"}};
+  for (const MotorDeviation& motor : motors)
+    rows.push_back({std::to_string(motor.motor + 1), fmt::format("{:.3g} {}", motor.largest, prettyUnit(motor.unit)),
+                    fmt::format("{:.4g} s", motor.t), motor.factor ? factorText(*motor.factor) : "",
+                    motor.offset ? fmt::format("{:.6g} {}", *motor.offset, prettyUnit(motor.unit)) : ""});
+  std::string out;
+  for (const std::string& line : alignedRows(rows, std::vector<Align>(5, Align::right))) out += "  " + line + "\n";
+  return out;
+}
+
+/// The sources of the replay's error, one per line.
+std::string replayText(const ReplayError& found, const std::string& effort) {
+  std::string out = std::string("dominant error: ") + name(found.dominant);
+  if (found.dominant == ErrorSource::model && !found.measured) out += ": the " + effort + "s are wrong";
+  out += "\n";
+  if (!found.measured) return out;
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [source, share] : {std::pair<std::string, SourceOfError>("rounding", found.rounding),
+                                      {"integration", found.integration},
+                                      {"gaps", found.closure},
+                                      {effort + "s", found.model}})
+    rows.push_back({source, fmt::format("{:.3g} m", share.error), fmt::format("± {:.2g} m", share.uncertainty)});
+  rows.push_back({"the rest", fmt::format("{:.3g} m", found.unexplained), ""});
+  out +=
+      fmt::format("  the replay is off by {:.3g} m at t = {:.6g} s, where deviations have grown {:.4g}-fold; of it\n",
+                  found.observed, found.t, found.amplification);
+  for (const std::string& line : alignedRows(rows, {Align::left, Align::right, Align::left})) out += "  " + line + "\n";
+  return out;
+}
+
+bool replayIsOpen(const std::vector<Check>& checks) {
+  return std::any_of(checks.begin(), checks.end(),
+                     [](const Check& check) { return isOpen(check) && isOf(check, "replay"); });
+}
+
+/// Returns details of the replay and of wrong torques; right torques need none.
+std::string reasonsText(const ValidationResult& result) {
+  std::string out;
+  if (result.replay_error && replayIsOpen(result.checks)) out += replayText(*result.replay_error, result.effort);
+  if (const std::vector<MotorDeviation> motors = motorsOff(result); !motors.empty())
+    out += result.effort + "s against the expected ones:\n" + motorsText(motors);
+  if (!result.cause_words.cause.empty()) out += causeText(result.cause_words) + "\n";
+  return out.empty() ? "" : "\n" + out;
+}
+
+std::string quietHead(const SuiteEntry& entry, bool coloured) {
+  return fmt::format("{}: {} — {}\n", withoutControls(entry.scenario), paintedVerdict(entry.verdict, coloured),
+                     reason(entry.verdict, entry.checks));
+}
+
+/// Returns lines such as "  replay.position, replay.orientation: not replayed", with each reason once.
+std::string openChecks(const std::vector<Check>& checks) {
+  const bool any_failed = anyIs(checks, Verdict::fail);
+  std::vector<std::pair<std::string, std::string>> lines;  // reason, names
+  for (const Check& check : checks) {
+    if (!isOpen(check)) continue;
+    const bool undecided = any_failed && check.verdict == Verdict::inconclusive;
+    const std::string why = (undecided ? "inconclusive: " : "") + whyLine(check);
+    const auto said = std::find_if(lines.begin(), lines.end(), [&why](const auto& line) { return line.first == why; });
+    if (said == lines.end())
+      lines.emplace_back(why, check.name);
+    else
+      said->second += ", " + check.name;
+  }
+  std::string out;
+  for (const auto& [why, names] : lines) out += fmt::format("  {}: {}\n", names, why);
+  return out;
+}
+
+}  // namespace
+
+std::string validationText(const ValidationResult& result, bool coloured) {
+  const std::string verdict = paintedVerdict(result.verdict, coloured), deviation = deviationSentence(result);
+  return fmt::format("{}: {}\n\n{}{}{}\nverdict: {} — {}\n{}", withoutControls(result.scenario), verdict,
+                     checksTable(result, coloured), notApplicableText(result.checks), reasonsText(result), verdict,
+                     reason(result.verdict, result.checks), deviation.empty() ? "" : deviation + "\n");
+}
+
+std::string quietText(const ValidationResult& result, bool coloured) {
+  const SuiteEntry entry = suiteEntry(result, "");
+  const CauseWords& words = result.cause_words;
+  return quietHead(entry, coloured) + (words.cause.empty() ? "" : "  " + causeText(words) + "\n") +
+         openChecks(entry.checks);
+}
+
+std::string quietText(const SuiteEntry& entry, bool coloured) {
+  if (!entry.error.empty())
+    return fmt::format("{}: {} — {}\n", withoutControls(entry.scenario), painted("error", Paint::bad, coloured),
+                       withoutControls(entry.error));
+  std::vector<Check> checks = entry.checks;
+  for (Check& check : checks) check.why = whyInFull(check);
+  return quietHead(entry, coloured) + openChecks(checks);
+}
+
+bool wantsColour(bool is_terminal, const char* no_color, const char* term) {
+  const bool refused = no_color != nullptr && *no_color != '\0';
+  return is_terminal && !refused && (term == nullptr || std::string(term) != "dumb");
+}
+
+namespace {
+
+Paint paintOf(const SuiteEntry& entry) {
+  if (!entry.error.empty() || entry.verdict == Verdict::fail) return Paint::bad;
+  return entry.verdict == Verdict::pass ? Paint::good : Paint::open;
+}
+
+std::string entryReason(const SuiteEntry& entry) {
+  const Check* worst = worstCheck(entry.checks);
+  if (!entry.error.empty()) return entry.error;
+  return worst == nullptr ? "no check was made" : worst->name + " " + standing(*worst);
+}
+
+}  // namespace
+
+std::string suiteText(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir, bool coloured) {
+  std::size_t width = 0;
+  for (const SuiteEntry& entry : entries) width = std::max(width, columnsOf(entry.scenario));
+  std::string out;
+  for (const SuiteEntry& entry : entries)
+    out += fmt::format("{}  {}  {}  {}\n", painted(padded(wordOf(entry), verdict_width), paintOf(entry), coloured),
+                       padded(entry.scenario, width), entryReason(entry),
+                       entry.error.empty() ? (dir / entry.folder / "report.html").string() : "no report");
+  return out + countsOf(entries) + "\nindex: " + (dir / "index.html").string() + "\n";
+}
+
+}  // namespace ursula::report

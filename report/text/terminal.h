@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "report/files/report.h"
+
+namespace ursula::report {
+
+/// Returns a result as text for a mail: the checks in groups, each with value, limit, unit and share. A line of
+/// explanation follows each check that did not pass. Then come checks that do not apply with the reason, motors with
+/// deviations, and the verdict.
+std::string validationText(const ValidationResult& result, bool coloured);
+
+/// Returns the verdict in a line, then the likely cause, and a line per reason why checks failed or are undecided.
+std::string quietText(const ValidationResult& result, bool coloured);
+std::string quietText(const SuiteEntry& entry, bool coloured);
+
+/// Returns a line per scenario in the given order, then the totals. `dir` contains their folders.
+std::string suiteText(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir, bool coloured);
+
+/// Whether to use colour: only on a terminal that is not dumb, and unless NO_COLOR is set and non-empty. Null means not
+/// set.
+bool wantsColour(bool is_terminal, const char* no_color, const char* term);
+
+}  // namespace ursula::report

@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/text.h"
+#include "report/text/quantity.h"
+#include "report/files/report.h"
+
+namespace ursula {
+namespace {
+
+int severity(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::fail:
+      return 3;
+    case Verdict::inconclusive:
+      return 2;
+    case Verdict::pass:
+      return 1;
+    case Verdict::not_applicable:
+      break;
+  }
+  return 0;
+}
+
+// A number beyond its limit comes before a missing number, which is often only its consequence.
+std::pair<int, double> badness(const Check& check) {
+  const double share = limitShare(check);
+  return {severity(check.verdict), std::isnan(share) ? 1.0 : share};
+}
+
+std::string plural(std::ptrdiff_t count) { return fmt::format("{} check{}", count, count == 1 ? "" : "s"); }
+
+}  // namespace
+
+double limitShare(const Check& check) {
+  const bool meaningful = !std::isnan(check.value) && std::isfinite(check.limit) && check.limit >= 0;
+  if (!meaningful) return std::numeric_limits<double>::quiet_NaN();
+  return check.value <= 0 ? 0 : check.value / check.limit;
+}
+
+std::string standing(const Check& check) {
+  const double share = limitShare(check);
+  if (std::isnan(check.value)) return "has no value";
+  if (std::isinf(check.value)) return "is infinite";
+  if (std::isnan(share)) return "cannot be set against its limit";
+  if (std::isinf(share)) return "exceeds its limit of 0";
+  if (share > 1) return fmt::format("is at {:.{}g} times its limit", share, share < 1.01 ? 8 : 3);
+  return fmt::format("is at {:.3g} of its limit", share);
+}
+
+std::ptrdiff_t judgedCount(const std::vector<Check>& checks) {
+  return std::count_if(checks.begin(), checks.end(),
+                       [](const Check& check) { return check.verdict != Verdict::not_applicable; });
+}
+
+const Check* worstCheck(const std::vector<Check>& checks) {
+  const auto worst = std::max_element(checks.begin(), checks.end(),
+                                      [](const Check& a, const Check& b) { return badness(a) < badness(b); });
+  return worst == checks.end() ? nullptr : &*worst;
+}
+
+bool onlyFastFails(const std::vector<Check>& checks) {
+  return std::all_of(checks.begin(), checks.end(),
+                     [](const Check& check) { return check.verdict != Verdict::fail || isOf(check, "fast"); });
+}
+
+std::ptrdiff_t countOf(const std::vector<Check>& checks, Verdict verdict) {
+  return std::count_if(checks.begin(), checks.end(),
+                       [verdict](const Check& check) { return check.verdict == verdict; });
+}
+
+std::string reason(Verdict verdict, const std::vector<Check>& checks) {
+  if (checks.empty()) return "No check was made.";
+  const Check& worst = *worstCheck(checks);
+  const auto total = judgedCount(checks);
+  const auto count = countOf(checks, verdict);
+  // A caller may set a worse verdict than its checks; then they are not the reason.
+  if (worst.verdict != verdict) return fmt::format("{} as a whole, for a reason beyond its checks.", name(verdict));
+  switch (verdict) {
+    case Verdict::fail:
+      return fmt::format("{} of {} failed{} {}, which {}.{}", count, plural(total), count == 1 ? ":" : ", the worst",
+                         worst.name, standing(worst),
+                         onlyFastFails(checks) ? " The fast kernels that users call are wrong; the NOC holds." : "");
+    case Verdict::inconclusive:
+      return fmt::format("Nothing failed, but {} of {} cannot be judged here, among them {}.", count, plural(total),
+                         worst.name);
+    case Verdict::pass:
+    case Verdict::not_applicable:
+      break;
+  }
+  const auto by_user =
+      std::count_if(checks.begin(), checks.end(), [](const Check& check) { return check.limit_by == LimitBy::user; });
+  const std::string whose =
+      by_user == 0 ? "" : fmt::format(", {} at the user's limits, wider than the derived ones", by_user);
+  return fmt::format("{} of {} held{}; the closest to its limit, {}, {}.", count, plural(total), whose, worst.name,
+                     standing(worst));
+}
+
+namespace {
+
+/// "0.03 %"; a plain number below a millionth, because nobody reads 0.0000003 %.
+std::string shareText(double share) {
+  return share >= 1e-6 ? report::percentText(share) : fmt::format("{:.1e} of the largest", share);
+}
+
+std::string driftText(const EffortDeviation& deviation) {
+  if (!std::isfinite(deviation.drift) || deviation.largest == 0) return "";
+  if (deviation.drift > deviation.length)
+    return fmt::format("from errors of this size the open-loop motion may be lost within {:.3g} s; ",
+                       deviation.duration);
+  std::string drift = report::quantity(deviation.drift, "m", 2);
+  if (const auto joint = drift.find("\u00a0"); joint != std::string::npos) drift.replace(joint, 2, " ");
+  return fmt::format("from errors of this size the open-loop motion would drift by up to {} in {:.3g} s; ", drift,
+                     deviation.duration);
+}
+
+/// Rounds up, so that the rounded value passes, too.
+std::string roundedUp(double value) {
+  if (!(value > 0 && std::isfinite(value))) return fmt::format("{:g}", value);
+  const double digit = std::pow(10.0, std::floor(std::log10(value)) - 4);
+  double steps = std::floor(value / digit);
+  while (leadingNumber(fmt::format("{:.5g}", steps * digit)).value < value) ++steps;
+  return fmt::format("{:.5g}", steps * digit);
+}
+
+}  // namespace
+
+std::string deviationSentence(const ValidationResult& result) {
+  if (!result.deviation) return "";
+  const EffortDeviation& deviation = *result.deviation;
+  if (std::isnan(deviation.largest))
+    return fmt::format("The largest deviation is unknown: {} {} is not a number.", result.effort[0] == 'e' ? "an" : "a",
+                       result.effort);
+  if (deviation.largest_effort == 0)
+    return fmt::format("No {} is needed here; the largest that was found is {:.3g} {}.", result.effort,
+                       deviation.largest, deviation.unit);
+  constexpr double right = 1e-6;  // efforts with larger errors are not called right
+  const std::string seen =
+      std::isfinite(deviation.seen)
+          ? fmt::format(" An error of {:.1g} of the largest {} would have been seen.", deviation.seen, result.effort)
+          : "";
+  return fmt::format(
+      "{} {}: the largest deviation is {} {} of {:.6g} {}, {} at t = {:.4g} s; {}the smallest --rtol that would pass "
+      "is {}.{}",
+      deviation.relative() <= right || deviation.largest == 0 ? "Right to" : "Off by at most",
+      shareText(deviation.relative()), fmt::format(deviation.largest < 1000 ? "{:.3g}" : "{:.0f}", deviation.largest),
+      deviation.unit, deviation.largest_effort, deviation.unit, deviation.where, deviation.t, driftText(deviation),
+      roundedUp(deviation.smallestRelative()), seen);
+}
+
+}  // namespace ursula

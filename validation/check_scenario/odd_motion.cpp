@@ -1,0 +1,164 @@
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/scalar.h"
+#include "model/instants.h"
+#include "model/legs/leg_type.h"
+#include "model/scenario_files.h"
+#include "model/trajectories/trajectory_kinds.h"
+#include "nocsolver/errors.h"
+#include "parts/fast/solver.h"
+#include "validation/check_scenario/check_scenario.h"
+
+namespace ursula {
+namespace {
+
+double turned(const Matrix3d& Q) { return Eigen::AngleAxisd(Q).angle(); }
+
+double degrees(double angle) { return angle * 180 / pi; }
+
+/// Returns the rotation that was meant if the file gives [x, y, z, w] instead of [w, x, y, z].
+Matrix3d asScalarLast(const Matrix3d& Q) {
+  const Eigen::Quaterniond q(Q);
+  return Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()).toRotationMatrix();
+}
+
+/// Detects a quaternion with the scalar last, as many libraries write it: such machines hardly rotate by more than a
+/// right angle.
+void scalarLast(const Scenario& scenario, const std::string& key, std::vector<Oddity>& out) {
+  if (!placeInFile(scenario, key).given) return;
+  const Matrix3d Q = scenario.trajectory->at(0).Q;
+  const double read = turned(Q), swapped = turned(asScalarLast(Q));
+  if (!(read > pi / 2 && swapped < pi / 2)) return;
+  out.push_back({key, fmt::format("turns the platform by {:.4g} degrees at the start; read as [x, y, z, w] it would be "
+                                  "{:.4g}: expected is [w, x, y, z]",
+                                  degrees(read), degrees(swapped))});
+}
+
+void radians(const Scenario& scenario, std::vector<Oddity>& out) {
+  for (const char* name : {"start_angle", "end_angle", "phase"}) {
+    const std::string key = std::string("trajectory.") + name;
+    const double value = placeInFile(scenario, key).number.value_or(0);
+    if (std::abs(value) > 2 * pi)
+      out.push_back({key, fmt::format("{:.6g} rad are {:.3g} turns", value, std::abs(value) / (2 * pi)),
+                     fmt::format("did you mean {}_deg = {:.6g}?", name, value)});
+  }
+}
+
+/// Compares the largest acceleration with the machine's gravity, or Earth's.
+void haste(const Scenario& scenario, std::vector<Oddity>& out) {
+  constexpr double g = 9.81, hasty = 20;
+  double most = 0, at = 0;
+  for (double t : equallySpaced(scenario.trajectory->duration(), 201)) {
+    const double size = scenario.trajectory->at(t).p_ddot.norm();
+    if (!(size > most)) continue;
+    most = size;
+    at = t;
+  }
+  const std::string key = placeInFile(scenario, "trajectory.duration").given ? "trajectory.duration" : "trajectory";
+  if (most > hasty * g)
+    out.push_back(
+        {key,
+         fmt::format("{:.6g} s make the platform accelerate by {:.4g} m/s2 at t = {:.4g} s, {:.3g} times 9.81 m/s2",
+                     scenario.trajectory->duration(), most, at, most / g)});
+  if (scenario.trajectory->duration() >= 1000)
+    out.push_back({key, fmt::format("{:.6g} s", scenario.trajectory->duration()),
+                   fmt::format("did you mean ms? {0:.6g} ms are {1:.6g} s", scenario.trajectory->duration(),
+                               scenario.trajectory->duration() / 1000)});
+}
+
+/// Compares the platform's first position with what its legs can span.
+void distance(const Scenario& scenario, std::vector<Oddity>& out) {
+  const std::vector<Leg>& legs = scenario.manipulator->parameters().legs;
+  double span = 0, near = std::numeric_limits<double>::infinity();
+  const Vector3d p = scenario.trajectory->at(0).p;
+  for (const Leg& leg : legs) {
+    span = std::max(span, leg.proximal.length + leg.distal.length + leg.platform_point.norm());
+    near = std::min(near, (p - leg.base_point).norm());
+  }
+  const bool on_rails =
+      std::any_of(legs.begin(), legs.end(), [](const Leg& leg) { return rowOf(leg.kind).hasCarriage(); });
+  if (near > 100 * span && !on_rails)
+    out.push_back(
+        {"trajectory",
+         fmt::format("begins {:.6g} m from the nearest base point, while a leg and the platform span {:.6g} m", near,
+                     span),
+         inMillimetres(near)});
+}
+
+/// A leg's smallest value of a number over the motion.
+struct Least {
+  double value = std::numeric_limits<double>::infinity(), at = 0;
+
+  void include(double other, double t) {
+    if (other < value) *this = {other, t};
+  }
+};
+
+/// A leg's smallest margins.
+struct NearestOfLeg {
+  Least sine;    ///< |sin θ|, or similar: 0 if the leg's rates are undetermined
+  Least stroke;  ///< for UPS: to either end of the cylinder, m
+};
+
+std::vector<NearestOfLeg> nearestOfLegs(const Scenario& scenario) {
+  const Manipulator& machine = *scenario.manipulator;
+  const Solver<double> solver(machine);
+  Workspace<double> work;
+  std::vector<NearestOfLeg> all(machine.parameters().legs.size());
+  for (double t : equallySpaced(scenario.trajectory->duration(), 201)) {
+    solver.displacements(scenario.trajectory->at(t), work);
+    const JointVariables<double> q = solver.angles(work);
+    for (int i = 0; i < machine.legCount(); ++i) {
+      NearestOfLeg& nearest = all[static_cast<std::size_t>(i)];
+      const Leg& leg = machine.leg(i);
+      nearest.sine.include(solver.margins(work, i).sine, t);
+      if (rowOf(leg.kind).isTelescopic()) nearest.stroke.include(typeOf(leg.kind).margin(leg, q, i), t);
+    }
+  }
+  return all;
+}
+
+/// Warns of poses within 3° of undetermined rates, and of rods within a fiftieth of a cylinder from its end.
+void legsAtTheirLimits(const Scenario& scenario, std::vector<Oddity>& out) {
+  constexpr double near = 3 * pi / 180;
+  const std::vector<NearestOfLeg> all = nearestOfLegs(scenario);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Leg& leg = scenario.manipulator->leg(static_cast<int>(i));
+    const auto& [sine, stroke] = all[i];
+    const LegType& type = typeOf(leg.kind);
+    if (sine.value < std::sin(near))
+      out.push_back(
+          {"trajectory",
+           fmt::format(
+               "brings the {} of leg {} to {:.3g} degrees from {} at t = {:.4g} s: efforts and rounding grow there",
+               type.bends(), i + 1, degrees(std::asin(sine.value)), type.atDeadCentre(), sine.at)});
+    if (rowOf(leg.kind).isTelescopic() && stroke.value < leg.proximal.length / 50)
+      out.push_back({"trajectory", fmt::format("brings the rod of leg {} to {:.3g} m from an end of its cylinder, "
+                                               "which is {:.6g} m long, at t = {:.4g} s",
+                                               i + 1, stroke.value, leg.proximal.length, stroke.at)});
+  }
+}
+
+}  // namespace
+
+std::vector<Oddity> oddMotion(const Scenario& scenario) {
+  std::vector<Oddity> out;
+  radians(scenario, out);
+  const TrajectoryKind* kind = trajectoryKind(scenario.trajectory->kind());
+  if (kind != nullptr && kind->orientation != nullptr) scalarLast(scenario, kind->orientation, out);
+  haste(scenario, out);
+  distance(scenario, out);
+  try {
+    legsAtTheirLimits(scenario, out);
+  } catch (const PoseError&) {
+    // A pose out of reach gives no warning, because tryMotion refuses it.
+  }
+  return out;
+}
+
+}  // namespace ursula
