@@ -8,15 +8,13 @@
 
 #include "apps/files_apart.h"
 #include "apps/output.h"
+#include "apps/part_verbs.h"
 #include "apps/usage.h"
 #include "apps/verbs.h"
-#include "base/csv.h"
 #include "base/errors.h"
 #include "base/provenance.h"
-#include "parts/exchange/import.h"
 #include "model/scenario_excerpt.h"
 #include "nocsolver/errors.h"
-#include "parts/sweep/sqlite.h"
 
 namespace {
 
@@ -30,12 +28,8 @@ int runVerb(const CLI::App& app, const std::function<int()>& run) {
     return run();
   } catch (const ursula::ScenarioError& error) {
     return complain(ursula::atLength(error));  // starts with file:line:column
-  } catch (const ursula::CsvError& error) {
-    return complain(error.what());  // likewise
-  } catch (const ursula::DatabaseError& error) {
-    return complain(error.what());  // starts with the file
-  } catch (const ursula::exchange::ImportError& error) {
-    return complain(error.what());  // likewise
+  } catch (const ursula::InputError& error) {
+    return complain(error.what());
   } catch (const ursula::PoseError& error) {
     return complain(fmt::format("error: the motion cannot be made: {}", error.what()));
   } catch (const std::bad_alloc&) {
@@ -55,12 +49,10 @@ int runProgram(int argc, char** argv) {
   app.set_version_flag("--version", ursula::buildProvenance().version + " (" + ursula::buildProvenance().commit + ")");
   app.require_subcommand(1);
   std::function<int()> run;
-  for (const auto add :
-       {ursula::addValidate, ursula::addInverse, ursula::addInit,    ursula::addCheck,  ursula::addCompare,
-        ursula::addDirect,   ursula::addMap,     ursula::addEngines, ursula::addProve,  ursula::addSimulate,
-        ursula::addSweep,    ursula::addAudit,   ursula::addPoses,   ursula::addExcite, ursula::addExplain,
-        ursula::addIdentify, ursula::addImport,  ursula::addExport,  ursula::addOpen,   ursula::addDocs})
+  for (ursula::AddVerb* add : {ursula::addValidate, ursula::addInverse, ursula::addInit, ursula::addCheck,
+                               ursula::addExplain, ursula::addOpen})
     add(app, run);
+  for (ursula::AddVerb* add : ursula::partVerbs()) add(app, run);
   ursula::refuseFlagValues(app);
   if (argc < 2) return complain(app.help());
   if (const std::string unknown = ursula::unknownVerb(app, argc, argv); !unknown.empty()) return complain(unknown);

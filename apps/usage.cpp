@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "apps/part_verbs.h"
 #include "base/errors.h"
 #include "base/text.h"
 
@@ -96,6 +97,9 @@ std::string unknownVerb(const CLI::App& app, int argc, char** argv) {
   const std::string word = argv[1];
   for (const CLI::App* verb : app.get_subcommands({}))
     if (verb->get_name() == word) return "";
+  const std::vector<std::string>& of_parts = verbsOfParts();
+  if (std::find(of_parts.begin(), of_parts.end(), word) != of_parts.end())
+    return fmt::format("ursula: the verb \"{}\" is not in this build; ./dev build adds it", word);
   return fmt::format("ursula: no verb \"{}\"{} (ursula --help lists all)", word, suggestion(word, verbNames(app)));
 }
 

@@ -25,27 +25,11 @@ std::string withoutPercent(std::string text);
 /// Accepts a 64-bit unsigned integer in range. CLI11's own parser wraps around.
 CLI::Validator wholeNumber();
 
-/// Each registers its verb and stores in `run` its action, which returns the exit code.
-void addAudit(CLI::App& app, std::function<int()>& run);
-void addValidate(CLI::App& app, std::function<int()>& run);
-void addDirect(CLI::App& app, std::function<int()>& run);
-void addCheck(CLI::App& app, std::function<int()>& run);
-void addCompare(CLI::App& app, std::function<int()>& run);
-void addDocs(CLI::App& app, std::function<int()>& run);
-void addEngines(CLI::App& app, std::function<int()>& run);
-void addExcite(CLI::App& app, std::function<int()>& run);
-void addExplain(CLI::App& app, std::function<int()>& run);
-void addExport(CLI::App& app, std::function<int()>& run);
-void addIdentify(CLI::App& app, std::function<int()>& run);
-void addImport(CLI::App& app, std::function<int()>& run);
-void addInit(CLI::App& app, std::function<int()>& run);
-void addInverse(CLI::App& app, std::function<int()>& run);
-void addMap(CLI::App& app, std::function<int()>& run);
-void addOpen(CLI::App& app, std::function<int()>& run);
-void addPoses(CLI::App& app, std::function<int()>& run);
-void addProve(CLI::App& app, std::function<int()>& run);
-void addSimulate(CLI::App& app, std::function<int()>& run);
-void addSweep(CLI::App& app, std::function<int()>& run);
+/// Registers a verb and stores in `run` its action, which returns the exit code.
+using AddVerb = void(CLI::App& app, std::function<int()>& run);
+
+// The core's verbs; parts have further ones (apps/part_verbs.h).
+AddVerb addValidate, addInverse, addInit, addCheck, addExplain, addOpen;
 
 /// Returns the result of `run`. A pose that the machine cannot take becomes an error at the scenario's trajectory.
 template <class Run>

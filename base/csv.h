@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/errors.h"
 #include "base/csv_dialect.h"
 
 namespace ursula {
@@ -15,9 +16,9 @@ namespace ursula {
 constexpr std::size_t most_csv_bytes = std::size_t{1} << 30, most_csv_cell = 1024;
 
 /// `file:line: error: what, what was expected`
-class CsvError : public std::runtime_error {
+class CsvError : public InputError {
  public:
-  using std::runtime_error::runtime_error;
+  using InputError::InputError;
 };
 
 /// A CSV of numbers: one header line, then rows. Every column has as many numbers as there are rows.

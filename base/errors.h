@@ -23,6 +23,11 @@ class InvalidParameter : public std::invalid_argument {
   std::string place_, value_, bound_;
 };
 
+/// A file or an argument that cannot be used. The text begins with its place, and the program prints it as it is.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// The message for std::bad_alloc. It says nothing about the input and is never a finding.
 inline constexpr const char* out_of_memory = "out of memory";
 /// The same when scenarios are validated.

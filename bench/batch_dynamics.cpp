@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "bench/benchmarks.h"
-#include "parts/fast/parallel/threaded_batch.h"
+#include "parts/fast/threaded_batch.h"
 
 namespace ursula::bench {
 namespace {

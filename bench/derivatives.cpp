@@ -1,7 +1,7 @@
 // Derivatives of the efforts by the state, by every number of the machine, and the regressor.
 
 #include "bench/benchmarks.h"
-#include "parts/fast/effort_derivatives.h"
+#include "parts/derivatives/effort_derivatives.h"
 
 namespace ursula::bench {
 namespace {

@@ -34,14 +34,15 @@ add_custom_target(ursula_headers ALL DEPENDS ${headers_stamp})
 
 # The library has all objects of the static parts, and one source that sees the headers as users do. The parts are also
 # linked, for the libraries that they need.
-set(parts ursula_base ursula_model ursula_nocsolver ursula_parallel ursula_simbody_loop ursula_maximal_loop ursula_mujoco ursula_further_engines ursula_verdict
-  ursula_subject ursula_limits ursula_samples ursula_replay ursula_evidence ursula_checks ursula_findings
-  ursula_mistakes ursula_causes ursula_report ursula_validation ursula_outside ursula_provenance
-  ursula_check_scenario ursula_compare ursula_identify ursula_map ursula_simulate ursula_stream ursula_exchange)
+get_property(built GLOBAL PROPERTY URSULA_BUILT_PARTS)
+list(REMOVE_ITEM built ursula_prove ursula_random ursula_scenario_docs ursula_sweep)  # no public header has them
+set(parts ursula_base ursula_model ursula_nocsolver ursula_simbody ursula_verdict ursula_subject ursula_limits ursula_samples
+  ursula_replay ursula_evidence ursula_checks ursula_findings ursula_report ursula_validation ursula_outside ursula_provenance
+  ursula_check_scenario ursula_closing ursula_maximal_loop ursula_mujoco ${built})
 list(TRANSFORM parts REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE objects)
 set(as_users_do ${PROJECT_BINARY_DIR}/generated/library.cpp)
 file(CONFIGURE OUTPUT ${as_users_do} CONTENT "#include <ursula/ursula.h>\n")
-add_library(ursula_library SHARED ${as_users_do} ${objects})
+add_library(ursula_library SHARED ${as_users_do} ${objects} $<TARGET_OBJECTS:ursula_part_rows>)
 add_library(ursula::ursula ALIAS ursula_library)
 add_dependencies(ursula_library ursula_headers)
 set(symbols ${PROJECT_SOURCE_DIR}/cmake/ursula.map)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "model/joint_variables.h"
 #include "model/load.h"
 #include "model/manipulator.h"
@@ -19,6 +21,19 @@ class Engine {
   /// Efforts of the motors for the motion, N·m or N, conjugate to the rates of their coordinates. Throws
   /// std::domain_error if a leg cannot reach.
   virtual Vector6d inverseDynamics(const Motion<double>& motion) = 0;
+};
+
+using MakeEngine = std::unique_ptr<Engine>(const Manipulator& manipulator, std::shared_ptr<const Load> load);
+
+inline bool alwaysAvailable() { return true; }
+
+/// Everything that the validation knows of a further formulation: a row of furtherEngines().
+struct EngineKind {
+  const char* check;    ///< name of the check that compares the subject with it
+  const char* name;     ///< in a list of formulations: "MuJoCo"
+  const char* made_of;  ///< follows "torques against": "MuJoCo's trees, closed by Lagrange multipliers"
+  bool (*available)();  ///< whether this build has it
+  MakeEngine* make;
 };
 
 }  // namespace ursula

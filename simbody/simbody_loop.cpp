@@ -259,4 +259,10 @@ Vector6d SimbodyLoop::twistRate(const TreeCoordinates& at, const Vector6d& effor
   return mapped(loop.u_dot).segment<6>(loop.mechanism.platform.getFirstUIndex(loop.state));
 }
 
+std::string simbodyVersion() {
+  int major = 0, minor = 0, build = 0;
+  SimTK_version_simbody(&major, &minor, &build);
+  return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(build);
+}
+
 }  // namespace ursula

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "model/open_tree.h"
@@ -128,5 +129,8 @@ class SimbodyLoop {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Returns the version of the loaded library, "3.7.0".
+std::string simbodyVersion();
 
 }  // namespace ursula

@@ -17,37 +17,39 @@ import components  # noqa: E402
 import named_paths  # noqa: E402
 import sources  # noqa: E402
 
-# The folders that each folder may include from, beside itself. The order is from the ground up, so every arrow points down.
+# The folders that each folder may include from, beside itself. The order is from the ground up, so every arrow points down, and none
+# leads from the core into parts/.
+CORE = "base model nocsolver simbody validation report apps"
 ALLOWED = {
     "base": "",
     "model": "base",
     "nocsolver": "base model",
-    "engines": "base model",
-    "exchange": "base model",
-    "validation": "base model nocsolver engines",
+    "simbody": "base model",
+    "validation": "base model nocsolver simbody",
     "report": "base model nocsolver validation",
-    "studies": "base model nocsolver engines validation report",
-    "apps": "base model nocsolver exchange validation report studies",
-    "include": "base model nocsolver exchange validation report studies",
+    "apps": "base model nocsolver validation report",
+    "parts": CORE,
+    "include": f"{CORE} parts",
     "examples": "",
     "python": "",
-    "tests": "bench examples base model nocsolver engines exchange validation report studies",
-    "bench": "base model nocsolver engines validation studies",
+    "tests": f"bench examples {CORE.replace(' apps', '')} parts apps",
+    "bench": f"{CORE} parts",
 }
 ENGINE_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath|mujoco/|dart/|ode/|bullet|btbullet)|/(simbody|simtk|simmath)")
 # Users of the library have the standard library, Eigen and the library itself.
 PYTHONS_HEADER = re.compile(r"pybind11/[\w/]+\.h")
 ENGINES_HEADER = re.compile(r"(mujoco|dart|BulletDynamics|drake|pinocchio|rbdl)/|tinyxml2\.h$")
 USERS_HEADER = re.compile(r"[a-z_]+|Eigen/\w+|ursula/\w+\.h")
-# Within nocsolver/ the judged NOC and the fast kernels never see each other.
-WITHIN_SOLVER = {"legs": {"legs"}, "noc": {"noc", "legs"}, "fast": {"fast", "legs"},
-                 "poses": {"poses", "noc", "fast", "legs", ""}, "": {"noc", "fast", "legs", ""}}
+# Within nocsolver/ the legs never see the dynamics.
+WITHIN_SOLVER = {"legs": {"legs"}, "noc": {"noc", "legs"}, "": {"noc", "legs", ""}}
 NAMESPACE = re.compile(r"namespace ([\w:]+) \{")
 TYPE = re.compile(r"(?:struct|class|enum class|enum) (\w+)(?: final)?(?: : [^;{]*)? ?\{")
-ENGINE_FOLDER = re.compile(r"^engines/(\w+)/")
+# An engine's own folder; side_by_side/ compares them.
+ENGINE_FOLDER = re.compile(r"^(simbody|parts/engines/(?!side_by_side)\w+)/")
+FAST = re.compile(r"^parts/fast/(?!fast_(samples|checks|subject)\b)")
 
 MAP = "docs/equations.md"
-TAGGED_FOLDERS = ("base", "model", "nocsolver", "engines", "exchange", "validation", "report", "studies")
+TAGGED_FOLDERS = ("base", "model", "nocsolver", "simbody", "validation", "report", "parts")
 LAST_EQUATION = 55
 PARTS = {2: "ab", 4: "abc", 11: "ab", 14: "ab", 15: "ab", 17: "ab", 19: "ab", 20: "ab", 30: "ab", 32: "ab",
          39: "abc", 41: "abc", 42: "ab", 43: "abc", 46: "abc", 51: "abcd"}
@@ -95,7 +97,10 @@ def check_engines(root, path):
             findings.append(f"{path}: the solver may not see the engines' geometry ({via})")
         if ENGINE_FOLDER.match(path) and name.startswith("nocsolver/"):
             findings.append(f"{path}: an engine may not see the solver ({via})")
-        if ENGINE_FOLDER.match(path) and ENGINE_FOLDER.match(name) and ENGINE_FOLDER.match(path)[1] != ENGINE_FOLDER.match(name)[1]:
+        if FAST.match(path) and name.startswith("nocsolver/noc/") and not path.endswith("fast/solver.h"):
+            findings.append(f"{path}: the kernels may not see the NOC, which is compared with them ({via})")
+        if (path.startswith("parts/engines/") and ENGINE_FOLDER.match(path) and ENGINE_FOLDER.match(name)
+                and ENGINE_FOLDER.match(path)[1] not in (ENGINE_FOLDER.match(name)[1], "parts/engines/simbody")):
             findings.append(f"{path}: an engine may not see another ({via})")
     return findings
 
@@ -120,7 +125,7 @@ def check_no_simtk(path, text):
 def check_type_names(root):
     """Two types of one name in one namespace would be one type to the linker."""
     findings, places = [], {}
-    for path in sources.files(root, ("base", "model", "nocsolver", "engines", "exchange", "validation", "report", "studies", "apps")):
+    for path in sources.files(root, (*CORE.split(), "parts")):
         if not sources.is_header(path):
             continue
         namespace = ""
@@ -136,13 +141,12 @@ def check_targets(root):
     """Checks what the CMake targets of each folder link."""
     forbidden = {"base": re.compile(r"(?i)ursula::(?!options|eigen|base)\w+|simbody|mujoco"),
                  "model": re.compile(r"(?i)ursula::(nocsolver|validation|report)|simbody|mujoco"),
-                 "nocsolver": re.compile(r"(?i)simbody|mujoco|ursula::validation|tbb"),
-                 "parts/fast/parallel": re.compile(r"(?i)simbody|mujoco|ursula::validation"),
-                 "engines": re.compile(r"ursula[:_]+(nocsolver|validation)"),
-                 "exchange": re.compile(r"(?i)ursula::(?!base|model|exchange)\w+|simbody|mujoco"),
+                 "nocsolver": re.compile(r"(?i)simbody|mujoco|ursula::(?!model|nocsolver)\w+|tbb"),
+                 "simbody": re.compile(r"(?i)mujoco|ursula::(?!model|simbody)\w+"),
                  "validation": re.compile(r"(?i)ursula::(apps|report)|\$\{(simbody|ursula_mujoco)_"),
                  "report": re.compile(r"(?i)ursula::apps|\$\{(simbody|ursula_mujoco)_"),
-                 "studies": re.compile(r"(?i)ursula::apps|\$\{(simbody|ursula_mujoco)_")}
+                 "parts": re.compile(r"(?i)\$\{(simbody|ursula_mujoco)_"),
+                 "parts/exchange": re.compile(r"(?i)ursula::(?!base|model|exchange)\w+|simbody|mujoco")}
     findings = []
     for folder, pattern in forbidden.items():
         path = root / folder / "CMakeLists.txt"
@@ -278,7 +282,7 @@ def main(arguments):
                     + named_paths.check_paths(root) + named_paths.check_subfolders(root))
     print(*findings, sep="\n", end="\n" if findings else "", file=sys.stderr)
     if not findings and not only_tags:
-        print(f"structure: {len(sources.files(root))} files, {len(components.COMPONENTS)} components, {len(EQUATIONS)} equations, nothing amiss")
+        print(f"structure: {len(sources.files(root))} files, {len(components.VALIDATION)} components, {len(components.parts(root))} parts, {len(EQUATIONS)} equations, nothing amiss")
     return 1 if findings else 0
 
 

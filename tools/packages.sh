@@ -21,11 +21,11 @@ declare -A needs=(
   [fresh]='git:git debootstrap:debootstrap'
 )
 # Optional packages, which a verb does without if they cannot be installed: a further formulation, needed before the
-# first configuration; a peer of the benchmarks; the readers of Gazebo and ROS, which check exported models; DART,
-# Bullet and ODE for `ursula engines`.
+# first configuration; a peer of the benchmarks; the readers of Gazebo and ROS, which check exported models; DART
+# for `ursula engines`.
 declare -A optional=(
   [program]='libmujoco-dev'
-  [test]='libsdformat-dev liburdfdom-dev libdart-dev libbullet-dev libode-dev'
+  [test]='libsdformat-dev liburdfdom-dev libdart-dev'
   [bench]='libmujoco-dev libdart-dev'
 )
 

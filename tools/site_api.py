@@ -9,8 +9,8 @@ import re
 HEADERS = {
     "scenario": ["model/scenario.h", "model/scenario_json.h", "model/manipulator.h", "model/trajectory.h", "model/trajectories/trajectories.h",
                  "model/motion.h", "model/load.h", "model/instants.h", "model/quaternions.h", "base/errors.h"],
-    "solver": ["parts/fast/solver.h", "parts/fast/batch_dynamics.h", "parts/fast/parallel/threaded_batch.h",
-               "parts/fast/effort_derivatives.h", "parts/poses/direct_kinematics.h", "parts/poses/ups_poses.h"],
+    "solver": ["parts/fast/solver.h", "parts/fast/batch_dynamics.h", "parts/fast/threaded_batch.h",
+               "parts/derivatives/effort_derivatives.h", "parts/poses/direct_kinematics.h", "parts/poses/ups_poses.h"],
     "validate": ["validation/subject/subject.h", "validation/validate.h", "validation/outside/outside_solver.h",
                  "validation/validate.h", "validation/verdict/result.h"],
     "report": ["report/files/report.h", "report/files/written_files.h"],

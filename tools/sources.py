@@ -4,8 +4,8 @@ import posixpath
 import re
 from pathlib import Path
 
-FOLDERS = ("base", "model", "nocsolver", "engines", "exchange", "validation", "report", "studies", "apps", "include", "examples", "python",
-           "tests", "bench")
+FOLDERS = ("base", "model", "nocsolver", "simbody", "validation", "report", "apps", "parts", "include", "examples", "python", "tests",
+           "bench")
 SUFFIXES = (".h", ".hpp", ".inl", ".cpp")
 HEADER_SUFFIXES = (".h", ".hpp", ".inl")
 

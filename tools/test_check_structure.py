@@ -25,12 +25,21 @@ def sound_tree():
         "base/CMakeLists.txt": "target_link_libraries(b ursula::eigen)\n",
         "model/CMakeLists.txt": "target_link_libraries(m ursula::base)\n",
         "report/CMakeLists.txt": "target_link_libraries(r ursula::verdict)\n",
-        "parts/CMakeLists.txt": "add_subdirectory(suite)\n",
-        "parts/engines/CMakeLists.txt": "target_link_libraries(s ${Simbody_LIBRARIES})\n",
+        "parts/CMakeLists.txt": "ursula_part(engines ADDS addEngines)\nursula_part(fast ADDS addFast)\nursula_part(exchange)\n"
+                                "ursula_part(map SEES fast VERBS map)\n",
+        "parts/README.md": "`engines/`, `fast/`, `exchange/`, `map/`\n",
+        "parts/engines/README.md": "Engines.\n",
+        "parts/fast/README.md": "Kernels.\n",
+        "parts/exchange/README.md": "Files.\n",
+        "parts/map/README.md": "Maps.\n",
+        "parts/map/map.cpp": '#include "parts/fast/k.h"\n#include "report/page/page.h"\n',
+        "parts/fast/k.h": "#pragma once\n",
+        "simbody/CMakeLists.txt": "target_link_libraries(s ursula::model ${Simbody_LIBRARIES})\n",
+        "parts/engines/CMakeLists.txt": "target_link_libraries(s ursula::simbody)\n",
         "parts/exchange/CMakeLists.txt": "target_link_libraries(x ursula::model tinyxml2::tinyxml2)\n",
         "nocsolver/CMakeLists.txt": "target_link_libraries(n ursula::model)  # never Simbody\n",
-        "parts/fast/parallel/CMakeLists.txt": "target_link_libraries(p ursula::nocsolver TBB::tbb)\n",
-        "validation/CMakeLists.txt": "target_link_libraries(v ursula::nocsolver ursula::simbody_loop)\n",
+        "parts/fast/CMakeLists.txt": "target_link_libraries(p ursula::nocsolver TBB::tbb)\n",
+        "validation/CMakeLists.txt": "target_link_libraries(v ursula::nocsolver ursula::simbody)\n",
         "model/machine.h": "#include <Eigen/Core>\n",
         "simbody/simbody_loop.h": "// SimTK stays behind this header.\n",
         "simbody/simbody_loop_internal.h": "#include <Simbody.h>\nSimTK::State s;\n",
@@ -89,17 +98,18 @@ class CheckStructure(unittest.TestCase):
         self.assert_caught("leg.h -> model/machine.h -> simbody/simbody_loop.h",
                            model__machine_DOT_h=append('#include "simbody/simbody_loop.h"\n'))
         self.assert_caught("the solver may not see the engines' geometry", nocsolver__leg_DOT_cpp=append('#include "model/legs/leg.h"\n'))
-        self.assert_caught("may not see the solver", engines__simbody__simbody_loop_DOT_cpp=append('#include "nocsolver/leg.h"\n'))
+        self.assert_caught("may not see the solver", simbody__simbody_loop_DOT_cpp=append('#include "nocsolver/leg.h"\n'))
         self.assert_caught("the solver may not see an engine", nocsolver__leg_DOT_cpp=append("#include <mujoco/mujoco.h>\n"))
         self.assert_caught("an engine may not see another",
-                           engines__mujoco__mujoco_loop_DOT_cpp=append('#include "simbody/simbody_loop.h"\n'))
-        self.assert_caught("nocsolver/noc may not include parts/fast", nocsolver__fast__k_DOT_h=("", "#pragma once\n"),
-                           nocsolver__noc__n_DOT_h=("", '#include "parts/fast/k.h"\n'))
+                           parts__engines__mujoco__mujoco_loop_DOT_cpp=append('#include "simbody/simbody_loop.h"\n'))
+        self.assert_caught("nocsolver/ may not include parts/", nocsolver__noc__n_DOT_h=("", '#include "parts/fast/k.h"\n'))
+        self.assert_caught("nocsolver/legs may not include nocsolver/noc", nocsolver__noc__n_DOT_h=("", "#pragma once\n"),
+                           nocsolver__legs__l_DOT_h=("", '#include "nocsolver/noc/n.h"\n'))
+        self.assert_caught("the kernels may not see the NOC", nocsolver__noc__n_DOT_h=("", "#pragma once\n"),
+                           parts__fast__k_DOT_h=("", '#include "nocsolver/noc/n.h"\n'))
+        for core in ("model__machine_DOT_h", "validation__validate_DOT_h", "report__page__page_DOT_h", "apps__main_DOT_cpp"):
+            self.assert_caught("may not include parts/", **{core: append('#include "parts/fast/k.h"\n')})
         self.assert_caught("model/ may not include nocsolver/", model__machine_DOT_h=append('#include "nocsolver/leg.h"\n'))
-        self.assert_caught("tests/ may not include apps/", apps__a_DOT_h=append("\n"),
-                           tests__leg_test_DOT_cpp=append('#include "../apps/a.h"\n'))
-        self.assert_caught("tests/ may not include apps/", apps__a_DOT_h=append("\n"),
-                           tests__leg_test_DOT_cpp=append('#include "apps/a.h"\n'))
         self.assert_caught("which is internal", validation__r_DOT_h=append('#include "simbody/simbody_loop_internal.h"\n'))
         self.assert_caught("is no file of this project", nocsolver__leg_DOT_cpp=append('#include "leg.h"\n'))
 
@@ -116,22 +126,21 @@ class CheckStructure(unittest.TestCase):
 
     def test_type_names(self):
         of = "namespace ursula {\nstruct State {\n};\n}\n"
-        self.assert_caught("ursula::State is in engines/a.h, too", engines__a_DOT_h=("", of), nocsolver__a_DOT_h=("", of))
+        self.assert_caught("ursula::State is in nocsolver/a.h, too", parts__engines__a_DOT_h=("", of), nocsolver__a_DOT_h=("", of))
         elsewhere = of.replace("ursula", "ursula::direct")
-        self.assertEqual(self.findings(engines__a_DOT_h=("", of), nocsolver__a_DOT_h=("", elsewhere)), [])
+        self.assertEqual(self.findings(parts__engines__a_DOT_h=("", of), nocsolver__a_DOT_h=("", elsewhere)), [])
 
     def test_simtk_in_headers(self):
-        self.assert_caught("SimTK in a header", engines__simbody__simbody_loop_DOT_h=("", "const SimTK::State& s();\n"))
+        self.assert_caught("SimTK in a header", simbody__simbody_loop_DOT_h=("", "const SimTK::State& s();\n"))
         self.assert_caught("Simbody.h in a header", validation__r_DOT_h=("", "#include <Simbody.h>\n"))
         self.assert_caught("mujoco.h in a header", validation__r_DOT_h=("", "#include <mujoco/mujoco.h>\n"))
         self.assertEqual(self.findings(model__machine_DOT_h=("", "/* SimTK */ // SimTK\n")), [])
 
     def test_targets(self):
-        self.assert_caught("exchange may not link", exchange__CMakeLists_DOT_txt=("", "link(ursula::nocsolver)\n"))
+        self.assert_caught("exchange may not link", parts__exchange__CMakeLists_DOT_txt=("", "link(ursula::nocsolver)\n"))
         self.assert_caught("nocsolver may not link", nocsolver__CMakeLists_DOT_txt=("", "link(${Simbody_LIBRARIES})\n"))
         self.assert_caught("nocsolver may not link", nocsolver__CMakeLists_DOT_txt=("", "link(TBB::tbb)\n"))
-        self.assert_caught("parts/fast/parallel may not link",
-                           nocsolver__fast__parallel__CMakeLists_DOT_txt=("", "link(${Simbody_LIBRARIES})\n"))
+        self.assert_caught("simbody may not link", simbody__CMakeLists_DOT_txt=("", "link(ursula::nocsolver)\n"))
         self.assert_caught("base may not link", base__CMakeLists_DOT_txt=("", "link(ursula::model)\n"))
         self.assert_caught("model may not link", model__CMakeLists_DOT_txt=("", "link(ursula::nocsolver)\n"))
 
@@ -141,9 +150,12 @@ class CheckStructure(unittest.TestCase):
         self.assert_caught("replay may not see the entry",
                            validation__replay__replay_DOT_cpp=("", '#include "validation/validate.h"\n'))
         self.assert_caught("validation/ may not include report/", validation__validate_DOT_h=("", '#include "report/page/page.h"\n'))
-        self.assert_caught("report/ may not see replay", report__page_DOT_h=("", '#include "validation/replay/replay.h"\n'))
-        self.assert_caught("suite may not see prove", studies__prove__p_DOT_h=("", "\n"),
-                           studies__suite__suite_DOT_cpp=("", '#include "parts/prove/p.h"\n'))
+        self.assert_caught("report/ may not see replay", report__page__page_DOT_h=("", '#include "validation/replay/replay.h"\n'))
+        self.assert_caught("the part map may not see engines", parts__engines__e_DOT_h=("", "\n"),
+                           parts__map__map_DOT_cpp=("", '#include "parts/engines/e.h"\n'))
+        self.assert_caught("map may not link ursula::engines", parts__map__CMakeLists_DOT_txt=("", "link(ursula::engines)\n"))
+        self.assert_caught("shed/ has no row", parts__shed__a_DOT_cpp=("", "\n"))
+        self.assert_caught("parts/poses: no README.md", parts__CMakeLists_DOT_txt=("ursula_part(map", "ursula_part(poses)\nursula_part(map"))
         self.assert_caught("attic/ is no component", validation__attic__a_DOT_cpp=("", "\n"))
         self.assert_caught("verdict may not link ursula::checks",
                            validation__verdict__CMakeLists_DOT_txt=("", "target_link_libraries(v ursula::checks)\n"))

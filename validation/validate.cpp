@@ -4,8 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "parts/causes/asked_apart.h"
-#include "parts/causes/diagnosis.h"
 #include "validation/checks/families.h"
 #include "validation/checks/judges.h"
 #include "validation/checks/tolerance.h"
@@ -14,6 +12,7 @@
 #include "validation/evidence/reference.h"
 #include "validation/findings/attribution.h"
 #include "validation/findings/findings.h"
+#include "validation/likely_cause.h"
 #include "validation/subject/frame_change.h"
 #include "validation/subject/motion_check.h"
 #include "validation/verdict/effort_words.h"
@@ -85,20 +84,16 @@ Subject inSi(const Subject& subject, const FrameChange& natural) {
   return out;
 }
 
-/// Explains a solver's answers like a file's, and asks separate questions in addition if there is time.
-void diagnoseSolver(const Scenario& scenario, const Evidence& evidence, const Subject& subject,
-                    ValidationResult& result) {
+/// Explains a solver's answers like a file's, and lets it be asked further if there is time.
+void explainSolver(const Scenario& scenario, const Evidence& evidence, const Subject& subject,
+                   ValidationResult& result) {
   const GivenTorques answers = answersOf(evidence, subject.name);
-  if (answers.t.empty()) return;
-  const Scenario here = relocated(scenario, evidence.natural.origin);  // in SI, because the texts are
+  if (answers.t.empty() || partLikelyCause() == nullptr) return;
   const Subject solver = inSi(subject, evidence.natural);
-  std::vector<Motion<double>> motions;
-  for (const double t : answers.t) motions.push_back(here.trajectory->at(t));
   const TorqueFile file =
       within(torqueFileOf(answers, scenario.manipulator->motors()), scenario.trajectory->duration());
-  AskedApart asked;
-  if (evidence.has.out_of_time.empty()) asked = askedApart(solver, here, motions);
-  addDiagnosis(diagnose(here, runExternal(here, file), asked), result);
+  const bool in_time = evidence.has.out_of_time.empty();
+  partLikelyCause()(relocated(scenario, evidence.natural.origin), file, in_time ? &solver : nullptr, result);
 }
 
 /// The subject, which answers only until the deadline.
@@ -120,7 +115,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   double done = work.reference;
   tell(options, work, done, "experiments");
   Evidence evidence = gather(scenario, reference, subject, right, options.fault ? *options.fault : InjectedFault{},
-                             {options.ladder, options.reactions,
+                             {options.ladder, options.reactions, witnesses(),
                               [&](double share) { tell(options, work, done + share * work.samples, "experiments"); }});
   ValidationResult result = emptyResult(scenario, subject);
   done += work.samples + work.replays;
@@ -139,7 +134,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   result.deviation = effortDeviation(evidence, result.checks);
   conclude(scenario, evidence.has, 0, result);
   if (result.verdict == Verdict::fail && subject.formulation == Formulation::external)
-    diagnoseSolver(scenario, evidence, subject, result);
+    explainSolver(scenario, evidence, subject, result);
   sayEfforts(result);
   return result;
 }

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/deadline.h"
-#include "parts/causes/diagnosis.h"
 #include "validation/checks/families.h"
 #include "validation/checks/judges.h"
 #include "validation/checks/tolerance.h"
@@ -13,6 +12,7 @@
 #include "validation/evidence/external_evidence.h"
 #include "validation/findings/attribution.h"
 #include "validation/findings/findings.h"
+#include "validation/likely_cause.h"
 #include "validation/subject/frame_change.h"
 #include "validation/subject/motion_check.h"
 #include "validation/verdict/effort_words.h"
@@ -55,7 +55,7 @@ Evidence gatherExternal(const Scenario& given, const FrameChange& natural, const
   out.amplification = replay.amplification.get();
   out.has.any_instant = out.has.kinematics = out.has.direct_dynamics = out.has.other_machines = false;
   out.samples = external.samples;
-  out.fast = runFast(scenario, natural.units, out.samples);
+  askWitnesses(witnesses(), out);
   out.plan = replay.plan;
   out.scales = replay.scales;
   out.windows = replay.windows;
@@ -107,10 +107,8 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   result.deviation = effortDeviation(evidence, result.checks);
   conclude(scenario, evidence.has, replay.between * natural.units.effort(), result);
   addFileFindings(file, result);
-  if (result.verdict == Verdict::fail) {
-    const Scenario relocated = ursula::relocated(scenario, natural.origin);  // in SI, because the texts are
-    addDiagnosis(diagnose(relocated, runExternal(relocated, file)), result);
-  }
+  if (result.verdict == Verdict::fail && partLikelyCause() != nullptr)
+    partLikelyCause()(relocated(scenario, natural.origin), file, nullptr, result);
   sayEfforts(result);
   return result;
 }

@@ -6,8 +6,8 @@
 
 #include "include/ursula/abi.h"
 #include "parts/fast/batch_dynamics.h"
-#include "parts/fast/effort_derivatives.h"
-#include "parts/fast/parallel/threaded_batch.h"
+#include "parts/derivatives/effort_derivatives.h"
+#include "parts/fast/threaded_batch.h"
 #include "parts/poses/direct_kinematics.h"
 #include "parts/poses/ups_poses.h"
 #include "parts/fast/solver.h"

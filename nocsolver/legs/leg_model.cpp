@@ -3,6 +3,5 @@
 namespace ursula {
 
 template struct MachineParameters<double>;
-template struct MachineParameters<long double>;
 
 }  // namespace ursula

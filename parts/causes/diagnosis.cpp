@@ -299,4 +299,12 @@ void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result) {
           fmt::format("Off: {}{}{}", diagnosis.summary, likely ? ". Likely cause: " : ": ", result.cause_words.cause);
 }
 
+void addLikelyCause(const Scenario& scenario, const TorqueFile& efforts, const Subject* solver,
+                    ValidationResult& result) {
+  std::vector<Motion<double>> motions;
+  for (const double t : efforts.t) motions.push_back(scenario.trajectory->at(t));
+  const AskedApart asked = solver != nullptr ? askedApart(*solver, scenario, motions) : AskedApart{};
+  addDiagnosis(diagnose(scenario, runExternal(scenario, efforts), asked), result);
+}
+
 }  // namespace ursula

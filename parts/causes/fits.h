@@ -7,9 +7,9 @@
 
 #include "model/scenario.h"
 #include "parts/causes/hypotheses.h"
-#include "parts/causes/mistakes/tried_causes.h"
+#include "parts/causes/tried_causes.h"
 
-// How causes are fitted: those of parts/causes/mistakes/, and some with ways of their own.
+// How causes are fitted: those of parts/causes/, and some with ways of their own.
 
 namespace ursula {
 

@@ -9,7 +9,7 @@
 
 #include "base/scalar.h"
 #include "parts/causes/fits.h"
-#include "parts/causes/mistakes/tried_causes.h"
+#include "parts/causes/tried_causes.h"
 
 namespace ursula {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "nocsolver/errors.h"
 #include "parts/causes/fits.h"
-#include "parts/causes/mistakes/tied_parameters.h"
-#include "parts/causes/mistakes/tried_causes.h"
+#include "parts/causes/tied_parameters.h"
+#include "parts/causes/tried_causes.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {

@@ -120,16 +120,15 @@ struct LoopEngineKind {
 // Each engine's folder defines its own.
 using MakeLoopEngine = std::unique_ptr<LoopEngine>(const Manipulator& manipulator, std::shared_ptr<const Load> load);
 MakeLoopEngine makeSimbodyCalls, makeMaximalCalls, makeMujocoCalls;
-std::string simbodyVersion();  ///< version of the loaded library, "3.7.0"
 
-/// DART, Bullet and ODE are modules that are loaded on first use, because their libraries slow every start. Each
-/// exports this under the name ursula_engine_module.
+/// DART is a module that is loaded on first use, because its libraries slow every start. It exports this under the name
+/// ursula_engine_module.
 struct EngineModule {
   const char* version;  ///< the engine's version, "6.12.1"
   MakeLoopEngine* make;
 };
 
-/// All engines. A new one needs a folder in engines/ and a row.
+/// All engines. A new one needs a folder beside this file and a row.
 const std::vector<LoopEngineKind>& loopEngines();
 
 }  // namespace ursula

@@ -2,14 +2,15 @@
 
 #include <stdexcept>
 
-#include "parts/engines/further_engines.h"
+#include "parts/engines/voting_engines.h"
 #include "parts/engines/loop_engine.h"
 #include "parts/engines/mujoco/mujoco_loop.h"
+#include "simbody/simbody_loop.h"
 
 namespace ursula {
 namespace {
 
-constexpr char dart[] = "ursula_dart.so", ode[] = "ursula_ode.so", bullet[] = "ursula_bullet.so";
+constexpr char dart[] = "ursula_dart.so";
 
 /// Returns null if the module is not beside the program, or if its engine is not installed.
 template <const char* file>
@@ -55,18 +56,6 @@ const std::vector<LoopEngineKind>& loopEngines() {
        "take computeInverseDynamics at accelerations that close the loops (getLinearAcceleration of the points), and "
        "solve for the motors beside the multipliers of getLinearJacobian's rows",
        "computeInverseDynamics, read at the motors,", false},
-      {"Bullet", "libbullet-dev", moduleAvailable<bullet>, moduleVersion<bullet>, makeByModule<bullet>,
-       Recipe::own_inverse,
-       "take M(q̈ − q̈₀) with the columns of calcAccelerationDeltasMultiDof and q̈₀ of "
-       "computeAccelerationsArticulatedBodyAlgorithmMultiDof at accelerations that close the loops, and solve for the "
-       "motors beside the multipliers of fillConstraintJacobianMultiDof's rows",
-       "a step with btMultiBodyPoint2Point and btMultiBodyJointMotor at the rates of its end, whose impulses are read,",
-       true},
-      {"ODE", "libode-dev", moduleAvailable<ode>, moduleVersion<ode>, makeByModule<ode>, Recipe::own_inverse,
-       "drive every axis of the trees to its rate at v in a dWorldStep of h from v − h·a, with CFM zero, gyroscopic "
-       "mode off and −ω × Iω added; dJointFeedback at the axes is inverse dynamics, and solve for the motors beside "
-       "the multipliers of the axes' and anchors' rows",
-       "a dWorldStep from v with the motors driven to the rates of its end, dJointFeedback read at the motors,", true},
   };
   return table;
 }

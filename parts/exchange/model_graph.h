@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/errors.h"
 #include "base/scalar.h"
 
 namespace ursula::exchange {
@@ -70,9 +71,9 @@ struct ModelGraph {
 
 /// A model that cannot be imported: what is wrong, what was expected, what would help. The line of the file is 1-based,
 /// or 0 if no single line causes it.
-class ImportError : public std::runtime_error {
+class ImportError : public InputError {
  public:
-  explicit ImportError(const std::string& what, int at_line = 0) : std::runtime_error(what), line(at_line) {}
+  explicit ImportError(const std::string& what, int at_line = 0) : InputError(what), line(at_line) {}
 
   int line;
 };

@@ -7,7 +7,7 @@
 
 #include "model/machine_numbers.h"
 #include "model/number_tolerances.h"
-#include "parts/fast/effort_derivatives.h"
+#include "parts/derivatives/effort_derivatives.h"
 #include "parts/identify/filtered_log.h"
 
 namespace ursula::identification {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "parts/engines/further_engines.h"
+#include "validation/limits/further_engines.h"
 #include "parts/prove/defects.h"
 #include "parts/prove/prove.h"
 
@@ -49,8 +49,8 @@ InjectedFault::ScenarioChange another(const ChangeMachine& change) {
 /// Builds the engine of the further formulation of `check` from another machine.
 Defect engine(const std::string& name, const char* check, const ChangeMachine& change) {
   InjectedFault fault;
-  for (std::size_t k = 0; k < further_engine_count; ++k)
-    if (further_engines[k].check == std::string(check)) fault.further[k] = another(change);
+  for (std::size_t k = 0; k < furtherEngines().size(); ++k)
+    if (furtherEngines()[k].check == std::string(check)) fault.further[k] = another(change);
   return faulty(name, fault);
 }
 
@@ -223,7 +223,7 @@ std::vector<Defect> controls() {
                              control(eachStep("step: no fault", [](State&) {})),
                              control(lastStep("last step: no fault", [](State&) {})),
                              control(wrongLadder("ladder: no fault", Integrator::rkf78, [](ReplaySettings&) {}))};
-  for (const EngineKind& kind : further_engines)
+  for (const EngineKind& kind : furtherEngines())
     out.push_back(control(engine(engineOf(kind.check) + ": no fault", kind.check, [](ManipulatorParameters&) {})));
   return out;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "parts/fast/fast_samples.h"
 #include "parts/prove/defects.h"
 
 namespace ursula {
@@ -15,7 +16,7 @@ using FastLeg = kernel::PlaneModel<double>;
 
 Defect wrongFast(const std::string& name, const FastFault& fault) {
   Defect out{name, "fast"};
-  out.fault.fast = fault;
+  out.fault.witness = std::make_shared<FastFault>(fault);
   out.formulations_wanted = 1;
   return out;
 }

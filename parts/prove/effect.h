@@ -39,4 +39,7 @@ bool movesAlike(const Scenario& a, const Scenario& b);
 /// its limit.
 bool sayOtherwise(const std::vector<Check>& a, const std::vector<Check>& b, double share);
 
+/// The NOC's formulas in long double, to measure rounding in doubles.
+Subject longNocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load);
+
 }  // namespace ursula

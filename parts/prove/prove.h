@@ -113,4 +113,7 @@ bool isProved(const ProveResult& found);
 /// Returns a page in the report's style: defects by checks, the need for each check, thresholds, random scenarios.
 std::string proveHtml(const ProveResult& found);
 
+/// The built-in scenarios/proving-ground.toml, into which `ursula prove` injects defects.
+Scenario provingGround();
+
 }  // namespace ursula

@@ -7,7 +7,7 @@
 
 #include "base/errors.h"
 #include "base/start_threads.h"
-#include "parts/engines/further_engines.h"
+#include "validation/limits/further_engines.h"
 #include "model/check_catalogue.h"
 #include "nocsolver/errors.h"
 #include "parts/prove/defects.h"

@@ -10,7 +10,6 @@
 #include <thread>
 
 #include "apps/choice.h"
-#include "apps/embedded_scenario.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
 #include "base/output_file.h"

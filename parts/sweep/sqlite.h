@@ -8,14 +8,16 @@
 #include <string>
 #include <string_view>
 
+#include "base/errors.h"
+
 struct sqlite3;
 struct sqlite3_stmt;
 
 namespace ursula {
 
 /// An error of SQLite, or a file that is no database of ours; the text names the file.
-struct DatabaseError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct DatabaseError : InputError {
+  using InputError::InputError;
 };
 
 /// Another process uses the database.

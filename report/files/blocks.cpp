@@ -1,9 +1,7 @@
 #include "report/files/blocks.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -65,86 +63,64 @@ void appendRows(RowFormat format, const TimeSeries& series, std::string& out) {
 namespace {
 
 struct Block {
-  std::size_t k = 0;
   TimeSeries series = {};
   std::exception_ptr refusal = {};
   std::string text = {};
 };
-using BlockPointer = Block*;  // owned by the stream, because TBB drops items in flight after an exception
 
-/// Blocks are created, settled and written in order; any thread computes and formats them.
+/// Any thread computes and formats blocks; groups of them are settled and written in order.
 class Stream {
  public:
   Stream(const BlockTable& table, const StreamOptions& options, const Sink& sink)
       : table_(table), options_(options), sink_(sink) {}
 
   void run() {
-    using tbb::filter_mode;
-    const auto chain = tbb::make_filter<void, BlockPointer>(
-                           filter_mode::serial_in_order, [this](tbb::flow_control& control) { return next(control); }) &
-                       tbb::make_filter<BlockPointer, BlockPointer>(
-                           filter_mode::parallel, [this](BlockPointer block) { return make(block); }) &
-                       tbb::make_filter<BlockPointer, BlockPointer>(
-                           filter_mode::serial_in_order, [this](BlockPointer block) { return settle(block); }) &
-                       tbb::make_filter<BlockPointer, BlockPointer>(
-                           filter_mode::parallel, [this](BlockPointer block) { return format(block); }) &
-                       tbb::make_filter<BlockPointer, void>(filter_mode::serial_in_order,
-                                                            [this](BlockPointer block) { write(block); });
-    // TBB aborts if the system gives fewer threads than it wants.
-    const int jobs = 1 + static_cast<int>(threadsThatStart(static_cast<std::size_t>(options_.jobs - 1)));
-    blocks_.resize(static_cast<std::size_t>(jobs) + 2);  // additional blocks wait for their turn
-    // Allows the requested number of threads even on fewer processors, because TBB would otherwise warn.
-    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(jobs));
-    tbb::task_arena arena(jobs);
-    arena.execute([&] { tbb::parallel_pipeline(blocks_.size(), chain); });
+    const std::size_t jobs = static_cast<std::size_t>(options_.jobs);
+    for (std::size_t first = 0; first < table_.blocks; first += blocks_of_group * jobs) {
+      blocks_.assign(std::min(blocks_of_group * jobs, table_.blocks - first), {});
+      each([&](std::size_t i) { make(first + i, blocks_[i]); });
+      for (Block& block : blocks_)
+        if (!block.refusal && table_.settle) table_.settle(block.series);
+      each([&](std::size_t i) { format(first + i, blocks_[i]); });
+      for (std::size_t i = 0; i < blocks_.size(); ++i) write(first + i, blocks_[i]);
+    }
   }
 
  private:
-  BlockPointer next(tbb::flow_control& control) {
-    if (next_ == table_.blocks) {
-      control.stop();
-      return nullptr;
-    }
-    Block& block = blocks_[next_ % blocks_.size()];  // its previous block has been written, because writing is in order
-    block = {};
-    block.k = next_++;
-    return &block;
+  /// So many blocks for each thread make its start cheap.
+  static constexpr std::size_t blocks_of_group = 8;
+
+  template <class Work>
+  void each(const Work& work) {
+    inParallel(options_.jobs, static_cast<int>(blocks_.size()), [&](int i) { work(static_cast<std::size_t>(i)); });
   }
 
   /// An exception waits for the earlier blocks, so the reported one does not depend on timing.
-  BlockPointer make(BlockPointer block) const {
+  void make(std::size_t k, Block& block) const {
     try {
-      block->series = table_.make(block->k);
+      block.series = table_.make(k);
     } catch (...) {
-      block->refusal = std::current_exception();
+      block.refusal = std::current_exception();
     }
-    return block;
   }
 
-  BlockPointer settle(BlockPointer block) const {
-    if (!block->refusal && table_.settle) table_.settle(block->series);
-    return block;
+  void format(std::size_t k, Block& block) const {
+    if (block.refusal) return;
+    if (k == 0) block.text = rowHeader(options_.format, block.series.names, table_.rows);
+    appendRows(options_.format, block.series, block.text);
+    block.series = {};
   }
 
-  BlockPointer format(BlockPointer block) const {
-    if (block->refusal) return block;
-    if (block->k == 0) block->text = rowHeader(options_.format, block->series.names, table_.rows);
-    appendRows(options_.format, block->series, block->text);
-    block->series = {};
-    return block;
-  }
-
-  void write(BlockPointer block) const {
-    if (block->refusal) std::rethrow_exception(block->refusal);
-    sink_(block->text);
-    if (options_.written) options_.written(static_cast<double>(block->k + 1) / static_cast<double>(table_.blocks));
+  void write(std::size_t k, const Block& block) const {
+    if (block.refusal) std::rethrow_exception(block.refusal);
+    sink_(block.text);
+    if (options_.written) options_.written(static_cast<double>(k + 1) / static_cast<double>(table_.blocks));
   }
 
   const BlockTable& table_;
   const StreamOptions& options_;
   const Sink& sink_;
   std::vector<Block> blocks_;
-  std::size_t next_ = 0;
 };
 
 }  // namespace

@@ -8,8 +8,7 @@
 
 #include "model/instants.h"
 #include "nocsolver/errors.h"
-#include "parts/fast/batch_dynamics.h"
-#include "parts/fast/solver.h"
+#include "nocsolver/noc/noc.h"
 #include "validation/findings/findings.h"
 #include "validation/subject/subject.h"
 
@@ -29,7 +28,7 @@ void requireFiniteSeries(const TimeSeries& series, const std::vector<Motion<doub
 class InverseBlocks {
  public:
   InverseBlocks(const Scenario& scenario, int samples)
-      : scenario_(scenario), samples_(samples), solver_(*scenario.manipulator), batch_(*scenario.manipulator) {}
+      : scenario_(scenario), samples_(samples), solver_(*scenario.manipulator) {}
 
   TimeSeries block(std::size_t k) const {
     const int first = static_cast<int>(k) * rows_of_block, count = std::min(rows_of_block, samples_ - first);
@@ -41,15 +40,13 @@ class InverseBlocks {
       motions.push_back(scenario_.trajectory->at(instantOf(scenario_.trajectory->duration(), row, samples_)));
       loads.push_back(loadAtP(scenario_.load.get(), motions.back()));
     }
-    std::vector<Vector6d> efforts(motions.size());
-    std::vector<PoseFault> faults(motions.size());
-    batch_.inverseDynamics(motions.data(), motions.size(), efforts.data(), faults.data(), loads.data());
+    std::vector<Vector6d> efforts;
     std::vector<JointMotion> joints;
+    efforts.reserve(motions.size());
     joints.reserve(motions.size());
-    Workspace<double> work;
+    NocWorkspace<double> work;
     for (std::size_t row = 0; row < motions.size(); ++row) {  // in order, so that the first refused pose is reported
-      if (faults[row] != PoseFault::none) efforts[row] = solver_.inverseDynamics(motions[row], work, loads[row]);
-      solver_.inverseKinematics(motions[row], work);
+      efforts.push_back(solver_.inverseDynamics(motions[row], work, loads[row]));
       joints.push_back({solver_.angles(work), solver_.rates(work), solver_.accelerations(work)});
     }
     TimeSeries series = inverseSeries(*scenario_.manipulator, motions, joints, efforts);
@@ -60,8 +57,7 @@ class InverseBlocks {
  private:
   const Scenario& scenario_;
   int samples_;
-  Solver<double> solver_;
-  BatchDynamics batch_;
+  Noc<double> solver_;
 };
 
 /// Keeps quaternion signs continuous across blocks by the previous row, because each block begins with w >= 0.

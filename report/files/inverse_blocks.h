@@ -5,9 +5,8 @@
 
 namespace ursula {
 
-/// Motion, joint motion and efforts at `samples` equally spaced instants from 0 to t_f, for `ursula inverse`. Joint
-/// motion is Solver's; efforts are BatchDynamics' with the widest instruction set, so their last bits depend on the
-/// processor. Solver refuses a pose that the batch flagged: `make` throws its PoseError.
+/// Motion, joint motion and efforts at `samples` equally spaced instants from 0 to t_f, for `ursula inverse`. All are
+/// the NOC's: `make` throws its PoseError.
 BlockTable inverseBlocks(const Scenario& scenario, int samples);
 
 }  // namespace ursula

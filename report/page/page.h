@@ -15,8 +15,6 @@ extern const std::string_view report_style;   ///< web/style.css with that of uP
 extern const std::string_view report_script;  ///< web/main.js with uPlot and three.js
 extern const std::string_view charts_script;  ///< web/charts.js with uPlot
 extern const std::string_view index_script;   ///< web/suite.js
-extern const std::string_view
-    formulas_mathml;  ///< web/formulas.mjs as MathML: a JSON object with the formulas' texts as keys
 
 using PageFigure = KeyFigure;  ///< at the top of a page; plain text
 

@@ -81,7 +81,7 @@ TEST(CompareVerb, writesAPageIntoAFolderAndTheTableAloneIntoAFile) {
   EXPECT_EQ(ursula("compare a.csv a.csv --out table.csv").exit_code, 0);
   EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "table.csv"), testing::StartsWith("channel,verdict,"));
   ursula.write("file", "in the way");
-  for (const char* call : {"compare a.csv a.csv --out file", "audit --out file", "prove --out file"})
+  for (const char* call : {"compare a.csv a.csv --out file", "prove --out file"})
     expectRefused(ursula, {{call, "file"}});
 }
 

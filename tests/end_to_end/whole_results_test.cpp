@@ -240,9 +240,7 @@ TEST(WholeResults, replaceNothingThatIsRead) {
         "map sampled.toml --x -0.1,0.1,2 --y 0,1,2 --picture out/timeseries.csv",
         "poses sampled.toml --out out/timeseries.csv",
         "simulate sampled.toml --torques a.toml --out out/timeseries.csv",
-        "check sampled.toml --picture out/timeseries.csv", "check a.toml --picture a.toml",
-        "audit sampled.toml --json out/timeseries.csv", "audit a.toml --json a.toml",
-        "audit a.toml --markdown a.toml"}) {
+        "check sampled.toml --picture out/timeseries.csv", "check a.toml --picture a.toml"}) {
     const UrsulaRun run = ursula(call);
     EXPECT_EQ(run.exit_code, 2) << call;
     EXPECT_THAT(run.err, testing::ContainsRegex("reads this file, expected another file")) << call;

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "parts/engines/further_engines.h"
+#include "validation/limits/further_engines.h"
 #include "parts/engines/maximal/maximal_loop.h"
 #include "simbody/simbody_loop.h"
 #include "tests/support/motions.h"

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "parts/sweep_report/sweep_outputs.h"
-#include "parts/sweep_report/sweep_summary.h"
+#include "parts/sweep/report/sweep_outputs.h"
+#include "parts/sweep/report/sweep_summary.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {

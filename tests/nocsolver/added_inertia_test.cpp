@@ -12,7 +12,7 @@
 #include "base/real50.h"
 #include "model/machine_numbers.h"
 #include "parts/fast/batch_dynamics.h"
-#include "parts/fast/effort_derivatives.h"
+#include "parts/derivatives/effort_derivatives.h"
 #include "parts/fast/fast_dynamics.h"
 #include "nocsolver/noc/noc.h"
 #include "tests/support/vectors.h"

@@ -1,7 +1,7 @@
 // EffortDerivatives against central differences of FastDynamics in 50 digits, over the machines of tests/vectors (every
 // kind of leg, mixtures, friction, several motors on a leg).
 
-#include "parts/fast/effort_derivatives.h"
+#include "parts/derivatives/effort_derivatives.h"
 
 #include <gtest/gtest.h>
 

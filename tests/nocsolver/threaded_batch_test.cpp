@@ -1,6 +1,6 @@
 // A batch on several threads equals the batch on one, to the last bit.
 
-#include "parts/fast/parallel/threaded_batch.h"
+#include "parts/fast/threaded_batch.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

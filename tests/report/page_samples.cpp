@@ -74,40 +74,12 @@ ProveResult proveSample(bool weak) {
   return found;
 }
 
-Audit auditSample() {
-  Audit audit;
-  audit.scenario = "paper-helix";
-  audit.duration = 3;
-  audit.instants = {0.3, 1.5};
-  AuditRow fails;
-  fails.kind = AuditRow::Kind::fails;
-  fails.equation = "(15a)";
-  fails.printed = "φ̇ = h_x/(s sin(ψ+θ))";
-  fails.holds = "φ̇ = h_x/(s sin(ψ+θ) − l sin ψ)";
-  fails.unit = "rad/s";
-  fails.note = "No formula: 1 < 2.";
-  fails.residual_printed = 4.63;
-  fails.residual_holds = 3e-42;
-  fails.size = 0.33;
-  fails.effect = AuditEffect{"", 1.9e7, 756, 0.336, 0.455, 0.5, 0.6};
-  AuditRow holds;
-  holds.equation = "(37)";
-  holds.printed = "τ^a = −Tᵀ(wⁿ + w^g + w^d)";
-  holds.unit = "N m";
-  holds.residual_printed = 7e-36;
-  holds.size = 22000;
-  audit.rows = {fails, holds};
-  audit.remarks = {{"Table I", "a₃ has 0.9018", "0.9016 by symmetry"}};
-  return audit;
-}
-
 void writePageSamples(const std::filesystem::path& dir) {
   const TimeSeries reference = passedSample().timeseries;
   writeComparison(reference, comparedSample(), {}, {"passed", "<b>tested</b>"}, dir / "comparison");
   writeComparison(reference, reference, {}, {"passed", "passed"}, dir / "same");
   writeFileAtomically(dir / "prove.html", proveHtml(proveSample(false)));
   writeFileAtomically(dir / "weak.html", proveHtml(proveSample(true)));
-  writeFileAtomically(dir / "audit.html", auditHtml(auditSample()));
 }
 
 }  // namespace ursula::test

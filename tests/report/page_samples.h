@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "parts/audit/audit.h"
 #include "parts/prove/prove.h"
 #include "validation/verdict/result.h"
 
@@ -17,10 +16,7 @@ ValidationResult longSample();
 /// A made-up proof, with defects that several checks catch, one catches, or none.
 ProveResult proveSample(bool weak);
 
-/// A made-up audit with equations of the paper.
-Audit auditSample();
-
-/// Writes `comparison/`, `same/`, `prove.html`, `weak.html` and `audit.html` into `dir`.
+/// Writes `comparison/`, `same/`, `prove.html` and `weak.html` into `dir`.
 void writePageSamples(const std::filesystem::path& dir);
 
 }  // namespace ursula::test

@@ -1,4 +1,4 @@
-// The pages of compare, prove and audit, and a suite's files: their texts, their size, and that no text becomes markup.
+// The pages of compare and prove, and a suite's files: their texts, their size, and that no text becomes markup.
 
 #include <gtest/gtest.h>
 
@@ -134,14 +134,6 @@ TEST(ProvePage, needsNoScenarioOfTheProgramToFail) {
   random.random.failed = {"seed 9: torque.pointwise"};
   EXPECT_FALSE(isProved(random));
   EXPECT_TRUE(has(proveHtml(random), "false alarm: seed 9"));
-}
-
-TEST(AuditPage, setsEveryFormulaBesideItsResidual) {
-  const std::string html = auditHtml(test::auditSample());
-  EXPECT_EQ(countOf(html, "<math "), 3u);
-  EXPECT_TRUE(has(html, "4.63 of 0.33 rad/s"));
-  EXPECT_TRUE(has(html, "1 &lt; 2"));
-  EXPECT_FALSE(has(html, "<script")) << "nothing here has to move";
 }
 
 TEST(SuiteFiles, haveCountsAndWallTimes) {

@@ -17,7 +17,7 @@ add_executable(identify_logs EXCLUDE_FROM_ALL
 )
 foreach(program identify_tests identify_logs)
   target_link_libraries(${program} PRIVATE
-    test_support test_components ursula::simbody_loop nlohmann_json::nlohmann_json fmt::fmt GTest::gmock GTest::gtest_main)
+    test_support test_components ursula::simbody nlohmann_json::nlohmann_json fmt::fmt GTest::gmock GTest::gtest_main)
   target_compile_definitions(${program} PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
 endforeach()
 ursula_test_suites(identify_tests LONG ClosedFormLogs Identify)

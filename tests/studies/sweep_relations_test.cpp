@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "base/scalar.h"
-#include "parts/sweep_report/relations.h"
-#include "parts/sweep_report/sweep_rows.h"
+#include "parts/sweep/report/relations.h"
+#include "parts/sweep/report/sweep_rows.h"
 #include "tests/studies/sweep_databases.h"
 #include "tests/support/matchers.h"
 #include "tests/support/numbers.h"

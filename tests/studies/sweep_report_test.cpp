@@ -4,8 +4,8 @@
 #include <cmath>
 #include <regex>
 
-#include "parts/sweep_report/sweep_outputs.h"
-#include "parts/sweep_report/sweep_summary.h"
+#include "parts/sweep/report/sweep_outputs.h"
+#include "parts/sweep/report/sweep_summary.h"
 #include "tests/model/refusals.h"
 #include "tests/report/text_parts.h"
 #include "tests/studies/sweep_databases.h"

@@ -1,6 +1,6 @@
-#include "parts/sweep_report/sweep_rows.h"
+#include "parts/sweep/report/sweep_rows.h"
 
-#include "parts/sweep_report/sweep_summary.h"
+#include "parts/sweep/report/sweep_summary.h"
 #include "tests/studies/sweep_databases.h"
 #include "tests/support/matchers.h"
 

@@ -50,7 +50,7 @@ TEST_P(Engines, ofExactTorquesAgree) {
   for (const EngineSample& engine : engines) {
     EXPECT_TRUE(engine.further[twin] && engine.further[maximal]);
     EXPECT_EQ(engine.further[mujoco].has_value(), mujocoAvailable());
-    for (std::size_t k = 0; k < further_engine_count; ++k) {
+    for (std::size_t k = 0; k < furtherEngines().size(); ++k) {
       EXPECT_NE(engine.further[k], engine.simbody) << "no two formulations round alike";
       for (std::size_t j = 0; j < k; ++j) EXPECT_NE(engine.further[k], engine.further[j]);
     }

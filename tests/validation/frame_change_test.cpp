@@ -250,12 +250,12 @@ TEST(EngineFrameChanges, seeTheSame) {
   EXPECT_LE(near(a.reactions, b.reactions), 1e-9);
   for (Vector6d EngineView::*v : {&EngineView::torques, &EngineView::acceleration, &EngineView::direct})
     EXPECT_LE((a.*v - b.*v).norm(), 1e-10 * (a.*v).norm());
-  for (std::size_t k = 0; k < further_engine_count; ++k) {
+  for (std::size_t k = 0; k < furtherEngines().size(); ++k) {
     const std::optional<Vector6d>&of_a = a.further[k], &of_b = b.further[k];
-    ASSERT_EQ(of_a.has_value(), further_engines[k].available());
+    ASSERT_EQ(of_a.has_value(), furtherEngines()[k].available());
     ASSERT_EQ(of_b.has_value(), of_a.has_value());
     if (of_a) {
-      EXPECT_LE((*of_a - *of_b).norm(), 1e-10 * torques.norm()) << further_engines[k].name;
+      EXPECT_LE((*of_a - *of_b).norm(), 1e-10 * torques.norm()) << furtherEngines()[k].name;
     }
   }
   EXPECT_GT((a.direct - a.acceleration).norm(), 0.1) << "other torques are to move it otherwise";

@@ -1,6 +1,6 @@
 // What changes of a machine do to its torques, by exact derivatives, against differences of the torques themselves.
 
-#include "parts/causes/mistakes/machine_slopes.h"
+#include "parts/causes/machine_slopes.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "model/scenario.h"
-#include "parts/causes/mistakes/tied_parameters.h"
+#include "parts/causes/tied_parameters.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {

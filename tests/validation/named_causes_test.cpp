@@ -9,7 +9,7 @@
 
 #include "tests/validation/wrong_solvers.h"
 #include "parts/causes/explanation.h"
-#include "parts/causes/mistakes/tied_parameters.h"
+#include "parts/causes/tied_parameters.h"
 
 namespace ursula {
 namespace {

@@ -1,4 +1,4 @@
-// The pages of compare, prove and audit, and what is printed of the paper's helix, in a browser.
+// The pages of compare and prove, and what is printed of the paper's helix, in a browser.
 // usage: node pages_browser_test.mjs SAMPLES_DIR PACKAGE_DIR CHROMIUM
 import assert from "node:assert/strict";
 import { after, afterEach, before, test } from "node:test";
@@ -70,17 +70,6 @@ test("a sweep says in its head what came of it, and draws the grid, without a sc
   assertQuietAndOffline(sweep);
 });
 
-test("an audit's formulas are drawn as formulas", async () => {
-  const audit = await opened("audit.html");
-  const { page } = audit;
-  const fraction = page.locator("#failing mfrac").first();
-  const [above, below] = await fraction.evaluate((element) => [...element.children].map((part) => part.getBoundingClientRect().top));
-  assert.ok(below > above + 5, "a fraction is one above the other");
-  assert.match(await page.locator("#failing").innerText(), /✗ 4\.63 of 0\.33 rad\/s/);
-  assert.equal(await page.locator("script").count(), 0);
-  assertQuietAndOffline(audit);
-});
-
 test("one time for a minute at a kilohertz, too", async () => {
   const report = await opened("long/report.html");
   const { page } = report;
@@ -139,7 +128,7 @@ test("a suite's reports lead back to it, a report alone nowhere", async () => {
   assert.equal(await alone.page.locator("a[href*='index.html']").count(), 0);
 });
 
-for (const file of ["comparison/compare.html", "prove.html", "weak.html", "audit.html", "sweep/report.html"])
+for (const file of ["comparison/compare.html", "prove.html", "weak.html", "sweep/report.html"])
   test(`axe finds nothing serious in ${file}, light or dark, and 400 pixels hold it`, async () => {
     const { page, complaints } = await opened(file, { viewport: { width: 400, height: 800 } });
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 400);

@@ -1,6 +1,6 @@
 // Terms and loops of machines of every kind: taken together they are the NOC's efforts, and each mistake changes these.
 
-#include "parts/causes/mistakes/tried_causes.h"
+#include "parts/causes/tried_causes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

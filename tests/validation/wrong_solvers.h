@@ -14,7 +14,7 @@
 #include "tests/support/vectors.h"
 #include "parts/causes/asked_apart.h"
 #include "parts/causes/diagnosis.h"
-#include "parts/causes/mistakes/tried_causes.h"
+#include "parts/causes/tried_causes.h"
 #include "validation/subject/torque_file.h"
 
 namespace ursula {

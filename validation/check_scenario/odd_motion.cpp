@@ -11,7 +11,7 @@
 #include "model/scenario_files.h"
 #include "model/trajectories/trajectory_kinds.h"
 #include "nocsolver/errors.h"
-#include "parts/fast/solver.h"
+#include "nocsolver/noc/noc.h"
 #include "validation/check_scenario/check_scenario.h"
 
 namespace ursula {
@@ -107,8 +107,8 @@ struct NearestOfLeg {
 
 std::vector<NearestOfLeg> nearestOfLegs(const Scenario& scenario) {
   const Manipulator& machine = *scenario.manipulator;
-  const Solver<double> solver(machine);
-  Workspace<double> work;
+  const Noc<double> solver(machine);
+  NocWorkspace<double> work;
   std::vector<NearestOfLeg> all(machine.parameters().legs.size());
   for (double t : equallySpaced(scenario.trajectory->duration(), 201)) {
     solver.displacements(scenario.trajectory->at(t), work);
@@ -116,7 +116,7 @@ std::vector<NearestOfLeg> nearestOfLegs(const Scenario& scenario) {
     for (int i = 0; i < machine.legCount(); ++i) {
       NearestOfLeg& nearest = all[static_cast<std::size_t>(i)];
       const Leg& leg = machine.leg(i);
-      nearest.sine.include(solver.margins(work, i).sine, t);
+      nearest.sine.include(work.legs[static_cast<std::size_t>(i)].margins.sine, t);
       if (rowOf(leg.kind).isTelescopic()) nearest.stroke.include(typeOf(leg.kind).margin(leg, q, i), t);
     }
   }

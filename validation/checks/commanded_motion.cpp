@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "base/real50.h"
-#include "parts/fast/solver.h"
+#include "nocsolver/noc/noc.h"
 #include "validation/limits/conditioning.h"
 
 namespace ursula {
@@ -250,7 +250,7 @@ std::vector<Check> judgeTrajectory(const Trajectory& trajectory, double length, 
 
 std::vector<Check> judgeCommandedMotion(const Scenario& scenario) {
   const ExactTrajectory* exact = scenario.isAsRead() ? scenario.trajectory->exact() : nullptr;
-  const double length = Solver<double>(*scenario.manipulator).length();
+  const double length = MachineParameters<double>(*scenario.manipulator).length;
   std::vector<Check> checks =
       judgeTrajectory(*scenario.trajectory, length, exact == nullptr ? HiddenTerms() : exact->hiddenTerms());
   if (scenario.load) checks.push_back(judgeLoad(*scenario.load, scenario.trajectory->duration()));

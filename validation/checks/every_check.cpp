@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "parts/engines/further_engines.h"
+#include "validation/limits/further_engines.h"
 #include "model/check_catalogue.h"
 
 namespace ursula {

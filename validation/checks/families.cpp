@@ -6,7 +6,7 @@
 
 #include "base/deadline.h"
 #include "base/start_threads.h"
-#include "parts/engines/further_engines.h"
+#include "validation/limits/further_engines.h"
 #include "validation/checks/judges.h"
 #include "validation/replay/windowed_replay.h"
 
@@ -22,7 +22,7 @@ bool answers(const Evidence& e) { return e.subject != nullptr && sampled(e) && e
 
 std::vector<std::string> checksOfFurtherEngines() {
   std::vector<std::string> names;
-  for (const EngineKind& engine : further_engines) names.emplace_back(engine.check);
+  for (const EngineKind& engine : furtherEngines()) names.emplace_back(engine.check);
   return names;
 }
 
@@ -38,13 +38,7 @@ std::vector<Check> judgeSamples(const Evidence& e) {
   return checks;
 }
 
-/// If NOC and fast kernels differ at the samples already, comparing them between samples is meaningless.
 std::vector<Check> judgeBetweenSamples(const Evidence& e) {
-  const bool by_fast = e.subject->formulation == Formulation::noc;
-  if (by_fast && fails(judgeFast(e.fast, e.samples, e.units()), "fast.inverse"))
-    return {notJudgeable(Reason::not_covered, "torque.between", std::nan(""), std::nan(""), e.units().efforts.unit, "",
-                         "the NOC is compared with the fast kernels there, which differ from it at the samples "
-                         "already; torque.pointwise and fast.inverse tell which of them is wrong")};
   return {judgeBetween(*e.scenario, *e.subject, e.samples, profileOf(e), e.units())};
 }
 
@@ -92,12 +86,6 @@ void lookAtReplays(Evidence& e) {
     if (anyIs(judgeWindows(e, {e.windows[k]}), Verdict::fail)) refineWindow(e, k);
 }
 
-/// False if time ran out before the kernels were called.
-bool kernelsAsked(const Evidence& e) {
-  const bool any = !e.fast.samples.empty() || !e.fast.refused.empty();
-  return sampled(e) && !e.samples.empty() && (any || e.has.out_of_time.empty());
-}
-
 bool climbed(const Evidence& e) { return !e.ladder.rungs.empty(); }
 
 std::vector<Check> judgeClimbed(const Evidence& e) {
@@ -118,15 +106,14 @@ std::vector<Check> judgeStabilisedReplay(const Evidence& e) {
   return {judgeStabilised(*e.stabilised, largestTorque(e.samples), e.units())};
 }
 
-void append(std::vector<Check>& checks, std::vector<Check> more) {
-  std::move(more.begin(), more.end(), std::back_inserter(checks));
+template <class T>
+void append(std::vector<T>& all, std::vector<T> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(all));
 }
 
-}  // namespace
-
-const std::vector<CheckFamily>& checkFamilies() {
+std::vector<CheckFamily> familiesOfCore() {
   using E = const Evidence&;
-  static const std::vector<CheckFamily> families = {
+  return {
       {"motion",
        {"motion.pose", "motion.twist", "motion.twist_rate", "motion.load"},
        always,
@@ -159,10 +146,6 @@ const std::vector<CheckFamily>& checkFamilies() {
        {"direct.pointwise", "direct.off_path"},
        [](E e) { return answers(e) && e.has.direct_dynamics; },
        judgeDirectDynamics},
-      {"fast kernels",
-       {"fast.inverse", "fast.direct", "fast.inverse_batch", "fast.direct_batch"},
-       kernelsAsked,
-       [](E e) { return judgeFast(e.fast, e.samples, e.units()); }},
       {"replays",
        {"replay.position", "replay.orientation", "closure.position", "closure.velocity", "energy.balance"},
        replayed,
@@ -175,7 +158,24 @@ const std::vector<CheckFamily>& checkFamilies() {
        [](E e) { return std::vector<Check>{judgeOrder(*e.orders)}; }},
       {"stabilised replay", {"feedback.torque"}, [](E e) { return e.stabilised.has_value(); }, judgeStabilisedReplay},
   };
+}
+
+}  // namespace
+
+const std::vector<CheckFamily>& checkFamilies() {
+  static const std::vector<CheckFamily> families = [] {
+    std::vector<CheckFamily> all = familiesOfCore();
+    append(all, partFamilies());
+    return all;
+  }();
   return families;
+}
+
+std::vector<Witness> witnesses() {
+  std::vector<Witness> out;
+  for (const CheckFamily& family : checkFamilies())
+    if (family.ask != nullptr) out.push_back({family.id, family.ask});
+  return out;
 }
 
 void checksInSi(const Units& units, std::vector<Check>& checks) {

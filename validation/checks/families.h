@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,19 @@ struct CheckFamily {
   /// them.
   void (*second_look)(Evidence&) = nullptr;
   bool in_si = false;  ///< judged on the given scenario instead of its natural units
+  /// Makes at the samples what a part's family judges, as Evidence::witnessed[id]; null for the core's families.
+  std::shared_ptr<const void> (*ask)(const Evidence&) = nullptr;
 };
 
-/// All families. A new check needs a function, an entry here and a row of checkCatalogue().
+/// All families, of the core and of the parts in this build. A new check needs a function, an entry here and a row of
+/// checkCatalogue().
 const std::vector<CheckFamily>& checkFamilies();
+
+/// The rows of the parts in this build. CMake writes the definition (cmake/parts.cmake), once for each program.
+std::vector<CheckFamily> partFamilies();
+
+/// What the families of parts ask at the samples.
+std::vector<Witness> witnesses();
 
 /// Converts checks from natural units to SI.
 void checksInSi(const Units& units, std::vector<Check>& checks);

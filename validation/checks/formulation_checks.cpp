@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "parts/engines/further_engines.h"
+#include "validation/limits/further_engines.h"
 #include "validation/checks/judges.h"
 #include "validation/limits/conditioning.h"
 #include "validation/limits/rounding_profile.h"
@@ -35,7 +35,7 @@ WorstShare compareEngines(const std::vector<EngineSample>& samples, const PairOf
 /// Judges the k-th further formulation.
 Check judgeEngine(const std::vector<EngineSample>& samples, std::size_t k, const Units& units,
                   const std::vector<PointwiseSample>& conditions) {
-  const EngineKind& kind = further_engines[k];
+  const EngineKind& kind = furtherEngines()[k];
   if (samples.empty()) return notMade(kind.check, units.efforts.unit, "no instant was compared");
   const WorstShare worst = compareEngines(samples, [k](const EngineSample& sample) {
     return Pair{&sample.subject, given(sample.further[k]), sample.limits[k]};
@@ -60,10 +60,10 @@ struct Named {
 std::vector<Named> enginesOf(const EngineSample& first) {
   std::vector<Named> engines{{"the torques under test", [](const EngineSample& sample) { return &sample.subject; }},
                              {"Simbody, free platform", [](const EngineSample& sample) { return &sample.simbody; }}};
-  for (std::size_t k = 0; k < further_engine_count; ++k)
+  for (std::size_t k = 0; k < furtherEngines().size(); ++k)
     if (first.further[k])
       engines.push_back(
-          {further_engines[k].name, [k](const EngineSample& sample) { return given(sample.further[k]); }});
+          {furtherEngines()[k].name, [k](const EngineSample& sample) { return given(sample.further[k]); }});
   return engines;
 }
 
@@ -72,8 +72,8 @@ std::vector<Named> enginesOf(const EngineSample& first) {
 std::vector<Check> judgeEngines(const std::vector<EngineSample>& samples, const Units& units,
                                 const std::vector<PointwiseSample>& conditions) {
   std::vector<Check> checks;
-  for (std::size_t k = 0; k < further_engine_count; ++k)
-    if (samples.empty() ? further_engines[k].available() : samples.front().further[k].has_value())
+  for (std::size_t k = 0; k < furtherEngines().size(); ++k)
+    if (samples.empty() ? furtherEngines()[k].available() : samples.front().further[k].has_value())
       checks.push_back(judgeEngine(samples, k, units, conditions));
   return checks;
 }
@@ -102,74 +102,6 @@ std::string oddOneOut(const std::vector<EngineSample>& samples) {
       std::all_of(engines.begin(), engines.end(), [&](const Named& engine) { return agree(engines[0], engine); });
   return all ? fmt::format("none: {} formulations agree", engines.size())
              : "not one alone: the formulations disagree in more than one way";
-}
-
-namespace {
-
-/// One kind of answer of the kernels.
-struct Kernel {
-  const char *check, *unit, *what;
-  std::vector<Vector6d> FastAnswers::*answers;
-  std::vector<Vector6d> FastSamples::*expected;
-  Rounded rounded;
-};
-
-constexpr const char* in_effort_units = "";
-
-const Kernel kernels[] = {
-    {"fast.inverse", in_effort_units, "efforts of one pose at a time", &FastAnswers::torques, &FastSamples::torques,
-     Rounded::solver},
-    {"fast.direct", "m/s^2", "platform accelerations of one pose at a time", &FastAnswers::accelerations,
-     &FastSamples::accelerations, Rounded::solver_direct},
-    {"fast.inverse_batch", in_effort_units, "efforts of batches", &FastAnswers::torques_in_batch, &FastSamples::torques,
-     Rounded::solver},
-    {"fast.direct_batch", "m/s^2", "platform accelerations of batches", &FastAnswers::accelerations_in_batch,
-     &FastSamples::accelerations, Rounded::solver_direct},
-};
-
-/// The size of a difference or an answer: the largest effort, or a twist rate with rotations times the length.
-double sizeOf(const Kernel& kernel, const Vector6d& v, double length) {
-  if (kernel.unit == in_effort_units) return v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-  return twistSize(v, length);
-}
-
-Check judgeKernel(const Kernel& kernel, const FastSamples& fast, const std::vector<PointwiseSample>& samples,
-                  const Units& units) {
-  const char* unit = kernel.unit == in_effort_units ? units.efforts.unit : kernel.unit;
-  if (!fast.refused.empty()) return notMade(kernel.check, unit, "no answer: " + fast.refused);
-  if (fast.answers.empty() || fast.samples.empty()) return notMade(kernel.check, unit, "no instant was compared");
-  WorstShare worst;
-  double size = 0;
-  std::string sets;
-  for (std::size_t s = 0; s < fast.answers.size(); ++s) {
-    const FastAnswers& answers = fast.answers[s];
-    sets += (s == 0 ? "" : ", ") + std::string(nameOf(answers.set));
-    const std::vector<Vector6d>& found = answers.*kernel.answers;
-    if (found.size() < fast.samples.size()) return notMade(kernel.check, unit, "answers are missing");
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      const std::size_t instant = k % fast.samples.size();
-      const PointwiseSample& sample = samples[fast.samples[instant]];
-      const Conditioning& at = sample.conditioning;
-      const Vector6d& expected = (fast.*kernel.expected)[instant];
-      size = std::max(size, sizeOf(kernel, expected, at.length));
-      worst.add(sizeOf(kernel, found[k] - expected, at.length), 2 * at.rounding(kernel.rounded), sample.motion.t,
-                static_cast<int>(s));
-    }
-  }
-  const auto setOf = [&](int where) { return nameOf(fast.answers[static_cast<std::size_t>(where)].set); };
-  return judgedShown({kernel.check, unit, size}, worst, units,
-                     {"twice the rounding of the NOC: both sides round",
-                      fmt::format("{} by the fast kernels against the NOC, at {} instants, with {}", kernel.what,
-                                  fast.samples.size(), sets),
-                      setOf, causeOfRounding(samples, worst.widest_t, kernel.rounded)});
-}
-
-}  // namespace
-
-std::vector<Check> judgeFast(const FastSamples& fast, const std::vector<PointwiseSample>& samples, const Units& units) {
-  std::vector<Check> out;
-  for (const Kernel& kernel : kernels) out.push_back(judgeKernel(kernel, fast, samples, units));
-  return out;
 }
 
 Check judgeAgainstNoc(const ExternalTorques& torques, const Units& units) {

@@ -15,7 +15,6 @@
 #include "validation/replay/windowed_replay.h"
 #include "validation/samples/complement_samples.h"
 #include "validation/samples/engines.h"
-#include "validation/samples/fast_samples.h"
 #include "validation/samples/invariance_samples.h"
 #include "validation/samples/pointwise.h"
 #include "validation/samples/simbody_samples.h"
@@ -69,7 +68,7 @@ std::vector<Check> judgeEngines(const std::vector<EngineSample>& samples, const 
 std::string oddOneOut(const std::vector<EngineSample>& samples);
 
 /// `torque.between` compares the subject's torques with another formulation at thousands of instants between the other
-/// checks'. The NOC is compared with the fast kernels, another solver with the NOC. Instants are multiples of the
+/// checks'. The NOC is compared with Simbody, another solver with the NOC. Instants are multiples of the
 /// golden ratio, which match no period, and more where the torques curve. The result gives the width of the narrowest
 /// pulse that is surely found.
 Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::vector<PointwiseSample>& samples,
@@ -92,10 +91,6 @@ Check judgeOffPath(const std::vector<DirectSample>& direct, const Subject& subje
 
 /// `complement.orthogonality` and `complement.rank`: T is the orthogonal complement of D, (33).
 std::vector<Check> judgeComplement(const std::vector<ComplementSample>& samples, const Units& units);
-
-/// Compares the kernels that users call, with every instruction set of the processor, with the NOC: `fast.inverse`,
-/// `fast.direct`, `fast.inverse_batch`, `fast.direct_batch`. `fast` is at `samples`.
-std::vector<Check> judgeFast(const FastSamples& fast, const std::vector<PointwiseSample>& samples, const Units& units);
 
 /// Exact invariances without a reference, `invariance.*`: the world rotated (with gravity), axes turned, other units,
 /// legs relabelled, masses doubled, time reversed. Returns none if the subject is no solver. Loads are left out.

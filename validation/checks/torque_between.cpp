@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "nocsolver/errors.h"
+#include "simbody/simbody_loop.h"
 #include "validation/samples/pointwise.h"
 
 namespace ursula {
@@ -48,6 +49,18 @@ std::vector<double> curvedInstants(const std::vector<Answered>& instants) {
   return out;
 }
 
+/// Simbody's efforts as a subject, with which the NOC is compared.
+Subject simbodySubject(const Scenario& scenario) {
+  const auto loop =
+      std::make_shared<SimbodyLoop>(*scenario.manipulator, SimbodyLoop::Topology::ball_per_leg, scenario.load);
+  Subject subject;
+  subject.torques = [loop](const Motion<double>& motion) {
+    loop->place(motion);
+    return loop->inverseDynamics();
+  };
+  return subject;
+}
+
 /// The smaller limit of the two samples beside t. Most instants stay within it and need no limit of their own.
 class SampledTorqueLimit {
  public:
@@ -67,7 +80,7 @@ class Comparison {
   Comparison(const Scenario& scenario, Formulation judged, const std::vector<PointwiseSample>& samples,
              const RoundingProfile& profile)
       : trajectory_(*scenario.trajectory),
-        other_(judged == Formulation::noc ? fastSubject(*scenario.manipulator, scenario.load)
+        other_(judged == Formulation::noc ? simbodySubject(scenario)
                                           : nocSubject(*scenario.manipulator, scenario.load)),
         limit_(samples),
         profile_(profile),
@@ -154,7 +167,7 @@ Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::
     return notMade(check_name, units.efforts.unit, std::string("no answer: ") + error.what());
   }
   sortByTime(instants);
-  const char* other = subject.formulation == Formulation::noc ? "those of the fast kernels" : "the NOC's";
+  const char* other = subject.formulation == Formulation::noc ? "Simbody's" : "the NOC's";
   return checkOf(comparison,
                  fmt::format("torques against {}, at {} instants between the samples", other, instants.size()),
                  widestGap(instants, duration), samples, units);

@@ -17,7 +17,7 @@ std::vector<EngineSample> engineSamples(const Evidence& evidence) {
   const Scenario& scenario = *evidence.scenario;
   const RoundingProfile& profile = evidence.reference->rounding().profile;
   std::vector<EngineSample> out = runEngines(evidence.reference->engines(), evidence.samples, profile);
-  for (std::size_t k = 0; k < further_engine_count; ++k) {
+  for (std::size_t k = 0; k < furtherEngines().size(); ++k) {
     if (!evidence.fault.further[k]) continue;
     const std::vector<EngineSample> faulty = runEngines(evidence.fault.further[k](scenario), evidence.samples, profile);
     for (std::size_t i = 0; i < out.size(); ++i) out[i].further[k] = faulty[i].further[k];
@@ -99,7 +99,7 @@ void gatherSamples(const Experiments& experiments, Evidence& out) {
   tell(0.7);
   out.invariances = runInvariances(*out.scenario, *out.subject, out.samples);
   out.complement = runComplement(*out.scenario->manipulator, *out.subject, out.samples);
-  out.fast = runFast(*out.scenario, reference.natural.units, out.samples, out.fault.fast);
+  askWitnesses(experiments.witnesses, out);
   tell(0.8);
   if (experiments.reactions) gatherReactions(out);
   tell(1);
@@ -158,6 +158,10 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
     out.has.out_of_time = over.what();
   }
   return out;
+}
+
+void askWitnesses(const std::vector<Witness>& witnesses, Evidence& evidence) {
+  for (const Witness& witness : witnesses) evidence.witnessed[witness.name] = witness.ask(evidence);
 }
 
 std::function<void(ReplaySettings&)> rungSettings(const Evidence& evidence) {

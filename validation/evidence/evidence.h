@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <limits>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +17,6 @@
 #include "validation/replay/windows.h"
 #include "validation/samples/complement_samples.h"
 #include "validation/samples/engines.h"
-#include "validation/samples/fast_samples.h"
 #include "validation/samples/invariance_samples.h"
 #include "validation/samples/pointwise.h"
 #include "validation/samples/simbody_samples.h"
@@ -58,7 +59,7 @@ struct Evidence {
   std::vector<ReactionSample> own_reactions;  ///< empty if they are the right solver's
   bool has_reactions = false;
   std::vector<ComplementSample> complement;
-  FastSamples fast;
+  std::map<std::string, std::shared_ptr<const void>> witnessed;  ///< what parts asked, by the name of the witness
   ReplayPlan plan;  ///< with the subject's torques
   ReplayScales scales;
   std::vector<WindowedReplay> windows;
@@ -77,9 +78,16 @@ struct Evidence {
   bool answered() const;
 };
 
+/// An experiment of a part at the samples. It returns its answers, which the part's checks judge.
+struct Witness {
+  const char* name;  ///< key of Evidence::witnessed
+  std::shared_ptr<const void> (*ask)(const Evidence& evidence);
+};
+
 /// Which experiments are run.
 struct Experiments {
   bool ladder = true, reactions = true;
+  std::vector<Witness> witnesses = {};
   std::function<void(double share)> progress = nullptr;  ///< receives the completed share of the work at the samples
 };
 
@@ -87,6 +95,9 @@ struct Experiments {
 /// own; another subject reuses them if its answers are bitwise equal. Keeps pointers to its arguments.
 Evidence gather(const Scenario& given, const Reference& reference, const Subject& subject, bool right,
                 const InjectedFault& fault, const Experiments& experiments);
+
+/// Asks the witnesses at the samples that are there.
+void askWitnesses(const std::vector<Witness>& witnesses, Evidence& evidence);
 
 /// Changes the settings of the ladder's rungs: for subjects that foresee torques, and for negative controls.
 std::function<void(ReplaySettings&)> rungSettings(const Evidence& evidence);

@@ -1,15 +1,20 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
-#include "parts/engines/further_engines.h"
+#include "validation/limits/further_engines.h"
 #include "model/joint_variables.h"
 #include "model/scenario.h"
 #include "validation/replay/replay.h"
-#include "validation/samples/fast_samples.h"
 #include "validation/samples/pointwise.h"
 
 namespace ursula {
+
+/// A fault in a part's experiment; the part derives its own.
+struct WitnessFault {
+  virtual ~WitnessFault() = default;
+};
 
 /// Falsifies an experiment for negative controls, but neither the subject nor the scenario. Empty members change
 /// nothing. All of them see the scenario in its natural units.
@@ -18,7 +23,7 @@ struct InjectedFault {
   using ScenarioChange = std::function<Scenario(const Scenario&)>;
   using Settings = std::function<void(ReplaySettings&)>;
 
-  FastFault fast;                                ///< in the kernels that users call
+  std::shared_ptr<const WitnessFault> witness;   ///< in what a part asks
   OfFurtherEngines<ScenarioChange> further;      ///< the machine that each further formulation uses
   ScenarioChange feedback;                       ///< the machine in the loop of the stabilised replay
   std::function<void(PointwiseSample&)> sample;  ///< changes the measurement at one instant

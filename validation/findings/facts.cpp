@@ -4,8 +4,6 @@
 
 #include "base/provenance.h"
 #include "base/sha1.h"
-#include "parts/engines/mujoco/mujoco_loop.h"
-#include "parts/fast/instruction_set.h"
 #include "validation/findings/findings.h"
 #include "validation/replay/replay.h"
 #include "validation/verdict/effort_words.h"
@@ -121,14 +119,15 @@ ValidationResult emptyResult(const Scenario& scenario, const JudgedSubject& subj
                        {"build type", build.build_type},
                        {"Eigen", build.eigen},
                        {"Boost", build.boost},
-                       {"Simbody", build.simbody},
-                       {"MuJoCo", mujocoVersion()},
-                       {"instruction set", nameOf(bestInstructionSet())},
+                       {"Simbody", build.simbody}};
+  for (auto& row : partProvenance()) result.provenance.push_back(std::move(row));
+  const std::vector<std::pair<std::string, std::string>> asked = {
                        {"trajectory", scenario.trajectory->kind()},
                        {"duration", fmt::format("{} s", scenario.trajectory->duration())},
                        {"samples", fmt::format("{}", scenario.simulation.samples)},
                        {"integrator", name(scenario.simulation.integrator)},
                        {"tolerance", fmt::format("{:g}", scenario.simulation.tolerance)}};
+  result.provenance.insert(result.provenance.end(), asked.begin(), asked.end());
   addAsked(scenario, result);
   return result;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/scenario.h"
@@ -28,6 +29,10 @@ Curve workPrecision(const Ladder& ladder, const Units& units = {});
 /// Adds the largest torque and acceleration with their errors, condition numbers, and the cost of the replay.
 void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
                  ValidationResult& result, const Units& units = {});
+
+/// Versions and settings of the parts in this build, by their names. CMake writes the definition (cmake/parts.cmake),
+/// once for each program.
+std::vector<std::pair<std::string, std::string>> partProvenance();
 
 /// A result without checks. Its provenance has scenario, subject, build, settings and what the user asked for.
 ValidationResult emptyResult(const Scenario& scenario, const JudgedSubject& subject);

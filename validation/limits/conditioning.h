@@ -4,7 +4,7 @@
 #include <limits>
 #include <memory>
 
-#include "parts/engines/further_engines.h"
+#include "validation/limits/further_engines.h"
 #include "model/load.h"
 #include "model/manipulator.h"
 #include "model/motion.h"
@@ -40,7 +40,7 @@ enum class Rounded {
   further_engine,  ///< solver's torque and the first further formulation's, N·m; for the others
                    ///< ofFurtherEngine
 };
-constexpr std::size_t rounded_count = static_cast<std::size_t>(Rounded::further_engine) + further_engine_count;
+constexpr std::size_t rounded_count = static_cast<std::size_t>(Rounded::further_engine) + most_further_engines;
 
 /// The solver's torque and that of the k-th further formulation, N·m.
 constexpr Rounded ofFurtherEngine(std::size_t k) {

@@ -45,7 +45,7 @@ EngineView EngineFrameChange::at(const Motion<double>& motion, const Vector6d& t
   out.reactions = p.back(e.ball_per_leg.reactions());
   e.ball_per_leg.accelerate(p.of(others));
   out.direct = twistRateBack(p, e.ball_per_leg.platform());
-  for (std::size_t k = 0; k < further_engine_count; ++k)
+  for (std::size_t k = 0; k < furtherEngines().size(); ++k)
     if (e.further[k]) out.further[k] = p.torquesBack(e.further[k]->inverseDynamics(there));
   return out;
 }

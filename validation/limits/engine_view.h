@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "parts/engines/further_engines.h"
+#include "validation/limits/further_engines.h"
 #include "model/joint_variables.h"
 #include "model/scenario.h"
 #include "validation/subject/frame_change.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "parts/fast/solver.h"
+#include "nocsolver/noc/noc.h"
 
 namespace ursula {
 
@@ -28,7 +28,6 @@ Linearisation::Linearisation(const Scenario& scenario)
     : trajectory_(*scenario.trajectory),
       load_(scenario.load),
       right_(nocSubject(*scenario.manipulator, scenario.load)),
-      fast_(fastSubject(*scenario.manipulator, scenario.load)),
       length_(MachineParameters<double>(*scenario.manipulator).length),
       // For central differences the cube root of eps balances truncation and rounding.
       step_(stepFor(*scenario.manipulator) * std::cbrt(Eigen::NumTraits<double>::epsilon()) * length_) {}
@@ -63,7 +62,7 @@ Vector6d Linearisation::acceleration(Motion<double> motion, const Vector12& devi
   if (turn.norm() > 0) motion.Q = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * motion.Q;
   motion.p_dot += deviation.segment<3>(6);
   motion.omega += deviation.segment<3>(9) / length_;
-  const Vector6d found = fast_.accelerations(motion, torques);
+  const Vector6d found = right_.accelerations(motion, torques);
   Vector6d out;
   out << found.tail<3>(), length_ * found.head<3>();
   return out;

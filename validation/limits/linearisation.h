@@ -41,7 +41,6 @@ class Linearisation {
   std::shared_ptr<const Load> load_;
   mutable std::optional<Place> last_;
   Subject right_;
-  Subject fast_;
   double length_, step_;
 };
 

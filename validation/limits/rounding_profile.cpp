@@ -101,7 +101,7 @@ RoundingLevels spreadOfSolver(const Manipulator& machine, const std::vector<Solv
       raise(out, Rounded::solver, torque);
       raise(out, Rounded::solver_direct, twistSize(a.direct - b.direct, length));
       raise(out, Rounded::torque, torque);
-      for (std::size_t k = 0; k < further_engine_count; ++k) raise(out, ofFurtherEngine(k), torque);
+      for (std::size_t k = 0; k < furtherEngines().size(); ++k) raise(out, ofFurtherEngine(k), torque);
     }
   return out;
 }
@@ -121,7 +121,7 @@ RoundingLevels spreadOfEngines(const Manipulator& machine, const std::vector<Eng
       raise(out, Rounded::jacobian, twistSize(solver.T * q_dot, length));
       raise(out, Rounded::jacobian_rate, twistSize(solver.T * q_ddot + solver.T_rate * q_dot, length));
       raise(out, Rounded::torque, torqueDistance(a.torques, b.torques));
-      for (std::size_t k = 0; k < further_engine_count; ++k)
+      for (std::size_t k = 0; k < furtherEngines().size(); ++k)
         if (a.further[k] && b.further[k]) raise(out, ofFurtherEngine(k), torqueDistance(*a.further[k], *b.further[k]));
       raise(out, Rounded::acceleration, twistSize(a.acceleration - b.acceleration, length));
       raise(out, Rounded::effort, (to_efforts * (a.acceleration - b.acceleration)).norm());

@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "model/instants.h"
-#include "parts/fast/solver.h"
+#include "nocsolver/noc/noc.h"
 #include "validation/replay/radau.h"
 
 namespace ursula {
@@ -51,7 +51,7 @@ std::vector<double> stagesOf(double t, double h) {
 Motion<double> startOf(const Scenario& scenario, const ReplaySettings& settings) {
   Motion<double> motion = scenario.trajectory->at(settings.start);
   if (settings.deviation.isZero(0)) return motion;
-  const double length = Solver<double>(*scenario.manipulator).length();
+  const double length = MachineParameters<double>(*scenario.manipulator).length;
   const Vector3d turn = settings.deviation.segment<3>(3) / length;
   motion.p += settings.deviation.segment<3>(0);
   if (turn.norm() > 0) motion.Q = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * motion.Q;

@@ -10,7 +10,7 @@
 #include <new>
 
 #include "simbody/simbody_loop.h"
-#include "parts/fast/solver.h"
+#include "nocsolver/noc/noc.h"
 #include "validation/replay/radau.h"
 #include "validation/replay/windows.h"
 
@@ -124,7 +124,7 @@ class Stabilised {
   Matrix6d inertia(const Motion<double>& motion) {
     solver_.inverseKinematics(motion, work_);
     solver_.jacobians(motion, work_);
-    return solver_.T(work_).transpose() * solver_.massMatrixAtP(motion, work_);
+    return solver_.platformShaping(work_).transpose() * solver_.massMatrixAtP(motion, work_);
   }
 
  private:
@@ -134,8 +134,8 @@ class Stabilised {
   const Trajectory& trajectory_;
   const Amplification& amplification_;
   SimbodyLoop loop_;
-  Solver<double> solver_;
-  Workspace<double> work_;
+  Noc<double> solver_;
+  NocWorkspace<double> work_;
   double scale_ = 0;  ///< the largest frequency, 1/s
   long evaluations_ = 0;
 };

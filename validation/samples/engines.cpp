@@ -9,7 +9,7 @@ std::vector<EngineTorques> engineTorques(const Scenario& scenario, const std::ve
   for (std::size_t i = 0; i < instants.size(); ++i) {
     deadline.require();
     const Motion<double> motion = scenario.trajectory->at(instants[i]);
-    for (std::size_t k = 0; k < further_engine_count; ++k)
+    for (std::size_t k = 0; k < furtherEngines().size(); ++k)
       if (engines[k]) out[i][k] = engines[k]->inverseDynamics(motion);
   }
   return out;
@@ -17,7 +17,7 @@ std::vector<EngineTorques> engineTorques(const Scenario& scenario, const std::ve
 
 std::vector<EngineSample> runEngines(const std::vector<EngineTorques>& engines,
                                      const std::vector<PointwiseSample>& samples, const RoundingProfile& profile) {
-  std::vector<RemeasuredLimits> looks(further_engine_count, RemeasuredLimits(profile));
+  std::vector<RemeasuredLimits> looks(furtherEngines().size(), RemeasuredLimits(profile));
   std::vector<EngineSample> out;
   out.reserve(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -28,7 +28,7 @@ std::vector<EngineSample> runEngines(const std::vector<EngineTorques>& engines,
     engine.simbody = sample.torques_simbody;
     engine.further = engines[i];
     engine.limit = sample.torque.limit;
-    for (std::size_t k = 0; k < further_engine_count; ++k) {
+    for (std::size_t k = 0; k < furtherEngines().size(); ++k) {
       if (!engine.further[k]) continue;
       const double error = (engine.subject - *engine.further[k]).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
       engine.limits[k] = looks[k].limit(error, sample.conditioning, ofFurtherEngine(k), sample.motion);

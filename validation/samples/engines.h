@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/deadline.h"
-#include "parts/engines/further_engines.h"
+#include "validation/limits/further_engines.h"
 #include "model/scenario.h"
 #include "validation/samples/pointwise.h"
 

@@ -12,7 +12,7 @@
 #include "model/instants.h"
 #include "model/legs/leg_type.h"
 #include "model/scenario_files.h"
-#include "parts/fast/solver.h"
+#include "nocsolver/noc/noc.h"
 
 namespace ursula {
 namespace {
@@ -97,14 +97,14 @@ void requireWhole(const Scenario& scenario) {
 /// det B is continuous wherever the legs reach, so it vanishes between two poses at which its signs differ.
 void checkMotion(const Scenario& scenario) {
   requireWhole(scenario);
-  const Solver<double> solver(*scenario.manipulator);
-  Workspace<double> work;
+  const Noc<double> solver(*scenario.manipulator);
+  NocWorkspace<double> work;
   double before = 0;
   for (double t : instantsToCheck(scenario)) {
     const Motion<double> motion = scenario.trajectory->at(t);
     solver.inverseKinematics(motion, work);
     solver.jacobians(motion, work);
-    const double determinant = solver.determinant(work);
+    const double determinant = work.B_transposed.determinant();
     if (before * determinant < 0)
       throw SingularJacobian("B has crossed a singular pose: its determinant changed sign", -1, t, determinant, 0, "");
     before = std::copysign(1.0, determinant);

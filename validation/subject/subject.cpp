@@ -1,100 +1,10 @@
 #include "validation/subject/subject.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <utility>
 
-#include "parts/fast/fast_dynamics.h"
-#include "nocsolver/noc/noc.h"
+#include "validation/subject/noc_subject_impl.h"
 
 namespace ursula {
-namespace {
-
-/// Many threads may call a subject.
-template <class Workspace>
-Workspace& workspace() {
-  thread_local Workspace work;
-  return work;
-}
-
-template <class S>
-Motion<S> as(const Motion<double>& m) {
-  return {S(m.t),
-          m.p.cast<S>(),
-          m.Q.cast<S>(),
-          m.omega.cast<S>(),
-          m.p_dot.cast<S>(),
-          m.omega_dot.cast<S>(),
-          m.p_ddot.cast<S>()};
-}
-
-template <class S>
-JointVariables<double> inDoubles(const JointVariables<S>& q) {
-  return {q.phi.template cast<double>(), q.psi.template cast<double>(), q.theta.template cast<double>(),
-          q.d.template cast<double>()};
-}
-
-template <class S>
-BodyMotion<double> inDoubles(const BodyMotion<S>& body) {
-  return {body.c.template cast<double>(), body.R.template cast<double>(), body.twist.template cast<double>(),
-          body.twist_rate.template cast<double>()};
-}
-
-template <class S, class Formulas>
-KinematicAnswer kinematicsOf(const Noc<S, Formulas>& solver, const Motion<double>& motion) {
-  NocWorkspace<S>& work = workspace<NocWorkspace<S>>();
-  const Motion<S> m = as<S>(motion);
-  KinematicAnswer answer;
-  solver.inverseKinematics(m, work);
-  answer.joints = {inDoubles(solver.angles(work)), inDoubles(solver.rates(work)),
-                   inDoubles(solver.accelerations(work))};
-  solver.bodyMotions(m, work, work.bodies);
-  std::transform(work.bodies.begin(), work.bodies.end(), answer.bodies.begin(),
-                 [](const BodyMotion<S>& body) { return inDoubles(body); });
-  solver.jacobians(m, work);
-  answer.T = solver.platformShaping(work).template cast<double>();
-  answer.T_rate = solver.platformShapingRate(m, work).template cast<double>();
-  return answer;
-}
-
-template <class S, class Formulas>
-Subject makeSubject(const char* name, const MachineParameters<S>& machine, const std::shared_ptr<const Load>& load,
-                    const Formulas& reading) {
-  using Work = NocWorkspace<S>;
-  const auto solver = std::make_shared<const Noc<S, Formulas>>(machine, reading);
-  Subject subject;
-  subject.name = name;
-  subject.formulation = Formulation::noc;
-  subject.torques = [solver, load](const Motion<double>& motion) {
-    const Vector6<S> on_platform = loadAtP(load.get(), motion).cast<S>();
-    return Vector6d(solver->inverseDynamics(as<S>(motion), workspace<Work>(), on_platform).template cast<double>());
-  };
-  subject.kinematics = [solver](const Motion<double>& motion) { return kinematicsOf(*solver, motion); };
-  subject.accelerations = [solver, load](const Motion<double>& motion, const Vector6d& torques) {
-    const Vector6<S> on_platform = loadAtP(load.get(), motion).cast<S>(), efforts = torques.cast<S>();
-    return Vector6d(
-        solver->directDynamics(as<S>(motion), efforts, workspace<Work>(), on_platform).template cast<double>());
-  };
-  subject.complement = [solver, load](const Motion<double>& motion) {
-    Work& work = workspace<Work>();
-    const Motion<S> m = as<S>(motion);
-    solver->inverseDynamics(m, work, loadAtP(load.get(), motion).cast<S>());
-    return Complement{solver->D(m, work).template cast<double>(), work.T.template cast<double>()};
-  };
-  subject.reactions = [solver, load](const Motion<double>& motion) {
-    Work& work = workspace<Work>();
-    const Motion<S> m = as<S>(motion);
-    const Vector6<S> efforts = solver->inverseDynamics(m, work, loadAtP(load.get(), motion).cast<S>());
-    return solver->reactions(m, efforts, work);
-  };
-  subject.rebuilt = [name, reading](const Manipulator& other) {
-    return makeSubject<S, Formulas>(name, MachineParameters<S>(other), nullptr, reading);
-  };
-  return subject;
-}
-
-}  // namespace
-
 Vector6d loadAtP(const Load* load, const Motion<double>& motion) {
   if (load == nullptr) return Vector6d::Zero();
   const Wrench<double> wrench = load->at(motion.t);
@@ -129,31 +39,12 @@ Subject nocSubject(const Manipulator& manipulator, const std::shared_ptr<const L
 }
 
 Subject nocSubject(const MachineParameters<double>& machine, const std::shared_ptr<const Load>& load) {
-  return makeSubject("noc", machine, load, Corrected{});
+  return noc_subject::makeSubject("noc", machine, load, Corrected{});
 }
 
 Subject wrongNocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
                         const WithFormulaErrors& fault) {
-  return makeSubject("noc with a fault", MachineParameters<double>(manipulator), load, fault);
-}
-
-Subject fastSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load) {
-  const auto solver = std::make_shared<const FastDynamics<double>>(manipulator);
-  Subject subject;
-  subject.name = "fast kernels";
-  subject.formulation = Formulation::fast;
-  subject.torques = [solver, load](const Motion<double>& motion) {
-    return solver->inverseDynamics(motion, loadAtP(load.get(), motion));
-  };
-  subject.accelerations = [solver, load](const Motion<double>& motion, const Vector6d& torques) {
-    return solver->directDynamics(motion, torques, loadAtP(load.get(), motion));
-  };
-  subject.rebuilt = [](const Manipulator& other) { return fastSubject(other, nullptr); };
-  return subject;
-}
-
-Subject longNocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load) {
-  return makeSubject("noc in long double", MachineParameters<long double>(manipulator), load, Corrected{});
+  return noc_subject::makeSubject("noc with a fault", MachineParameters<double>(manipulator), load, fault);
 }
 
 }  // namespace ursula

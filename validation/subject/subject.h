@@ -68,12 +68,6 @@ Subject nocSubject(const MachineParameters<double>& machine, const std::shared_p
 Subject wrongNocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
                         const WithFormulaErrors& fault);
 
-/// The users' kernels, with torques and accelerations only: a fast formulation independent of the NOC.
-Subject fastSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load);
-
-/// The NOC's formulas in long double, to measure rounding in doubles.
-Subject longNocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load);
-
 /// Announces to the subject, if it wants to know, the instants of the trajectory that will be asked for, s.
 void foresee(const Subject& subject, const Trajectory& trajectory, const std::vector<double>& instants);
 

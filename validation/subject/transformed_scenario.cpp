@@ -6,7 +6,7 @@
 #include <random>
 
 #include "model/exact_trajectory.h"
-#include "parts/fast/solver.h"
+#include "nocsolver/noc/noc.h"
 #include "validation/subject/frame_change.h"
 
 namespace ursula {
@@ -148,7 +148,7 @@ FrameChange randomFrameChange(unsigned seed, double size, const Manipulator& mac
 }
 
 FrameChange naturalFrameChange(const Scenario& scenario) {
-  const double length = Solver<double>(*scenario.manipulator).length();
+  const double length = MachineParameters<double>(*scenario.manipulator).length;
   const double acceleration = accelerationOf(scenario, length);
   FrameChange out(*scenario.manipulator);
   out.origin = roundOrigin(*scenario.manipulator, length);

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "parts/engines/further_engines.h"
+#include "parts/engines/voting_engines.h"
 
 namespace ursula {
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "parts/engines/further_engines.h"
+#include "parts/engines/voting_engines.h"
 #include "model/open_tree.h"
 
 namespace ursula {

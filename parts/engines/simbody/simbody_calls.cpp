@@ -1,12 +1,11 @@
-// Asks Simbody for efforts of a closed loop as its users do, lets it step one in time, and cuts the loops elsewhere.
+// Asks Simbody for efforts of a closed loop as its users do, and lets it step one in time.
 
 #include <Eigen/LU>
 #include <stdexcept>
 #include <utility>
 
-#include "parts/engines/further_engines.h"
 #include "parts/engines/loop_engine.h"
-#include "simbody/simbody_loop_internal.h"
+#include "simbody/simbody_loop.h"
 
 namespace ursula {
 namespace {
@@ -122,32 +121,7 @@ class SimbodyCalls : public LoopEngine {
   PlacedTree tree_;
 };
 
-/// SimbodyLoop with the platform on leg 1, so the loops are cut elsewhere.
-class SimbodyTree : public Engine {
- public:
-  SimbodyTree(const Manipulator& manipulator, std::shared_ptr<const Load> load)
-      : loop_(manipulator, SimbodyLoop::Topology::tree_through_leg_1, std::move(load)) {}
-
-  Vector6d inverseDynamics(const Motion<double>& motion) override {
-    loop_.place(motion);
-    return loop_.inverseDynamics();
-  }
-
- private:
-  SimbodyLoop loop_;
-};
-
 }  // namespace
-
-std::unique_ptr<Engine> makeSimbodyTree(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
-  return std::make_unique<SimbodyTree>(manipulator, std::move(load));
-}
-
-std::string simbodyVersion() {
-  int major = 0, minor = 0, build = 0;
-  SimTK_version_simbody(&major, &minor, &build);
-  return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(build);
-}
 
 std::unique_ptr<LoopEngine> makeSimbodyCalls(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
   return std::make_unique<SimbodyCalls>(manipulator, std::move(load));

@@ -1,0 +1,55 @@
+# The parts: what the core can do without. Each is a folder of parts/ with its own target. parts/CMakeLists.txt has one
+# row for each; tools/components.py reads the same rows and checks includes and links against them.
+#
+#   ursula_part(NAME [FIRST] [SEES part…] [VERBS verb…] [ADDS what…])
+#
+# FIRST: the first hour needs it, so `./dev validate` builds it. SEES: other parts that it may include. VERBS: their
+# functions are addName, in the *_verb.cpp of its folder. ADDS: what it adds to a verdict, as functions of the same name:
+# engines (addEngines), fast families (addFastFamilies), likely causes (addLikelyCause), provenance (addNAMEProvenance).
+set(URSULA_PARTS all CACHE STRING "Which parts are built: first (what the first hour needs) or all")
+set_property(CACHE URSULA_PARTS PROPERTY STRINGS first all)
+
+function(ursula_part name)
+  cmake_parse_arguments(PARSE_ARGV 1 part "FIRST" "" "SEES;VERBS;ADDS")
+  foreach(verb IN LISTS part_VERBS)
+    set_property(GLOBAL APPEND PROPERTY URSULA_VERBS_OF_PARTS ${verb})
+  endforeach()
+  if(NOT part_FIRST AND NOT URSULA_PARTS STREQUAL "all")
+    return()
+  endif()
+  add_subdirectory(${name})
+  set_property(GLOBAL APPEND PROPERTY URSULA_BUILT_PARTS ursula_${name})
+  foreach(what IN LISTS part_ADDS)
+    set_property(GLOBAL APPEND PROPERTY URSULA_ADDED ${what})
+  endforeach()
+  foreach(verb IN LISTS part_VERBS)
+    set_property(GLOBAL APPEND PROPERTY URSULA_BUILT_VERBS ${verb})
+  endforeach()
+  file(GLOB sources CONFIGURE_DEPENDS ${name}/*_verb.cpp ${name}/*_verb_*.cpp)
+  set_property(GLOBAL APPEND PROPERTY URSULA_VERB_SOURCES ${sources})
+endfunction()
+
+# Writes a source with the rows that the built parts add to a verdict, as `file`; ADDED are the ADDS of the parts.
+function(ursula_part_rows file)
+  set(ENGINES "")
+  set(FAMILIES "")
+  set(PROVENANCE "")
+  set(CAUSE "nullptr")
+  set(DECLARED "")
+  foreach(what IN LISTS ARGN)
+    if(what STREQUAL "addLikelyCause")
+      set(CAUSE "addLikelyCause")
+      string(APPEND DECLARED "AddLikelyCause addLikelyCause;\n")
+    elseif(what MATCHES "Provenance$")
+      string(APPEND DECLARED "void ${what}(std::vector<std::pair<std::string, std::string>>& rows);\n")
+      string(APPEND PROVENANCE "  ${what}(rows);\n")
+    elseif(what MATCHES "Families$")
+      string(APPEND DECLARED "void ${what}(std::vector<CheckFamily>& rows);\n")
+      string(APPEND FAMILIES "  ${what}(rows);\n")
+    else()
+      string(APPEND DECLARED "void ${what}(std::vector<EngineKind>& rows);\n")
+      string(APPEND ENGINES "  ${what}(rows);\n")
+    endif()
+  endforeach()
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/part_rows.cpp.in ${file} @ONLY)
+endfunction()

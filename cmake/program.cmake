@@ -1,0 +1,16 @@
+# The program: the core's verbs, and those of the parts in this build.
+get_property(verb_sources GLOBAL PROPERTY URSULA_VERB_SOURCES)
+add_executable(ursula apps/main.cpp ${PROJECT_BINARY_DIR}/generated/part_verbs.cpp)
+target_link_libraries(ursula PRIVATE ursula::apps ursula::parts ursula::provenance Threads::Threads)
+ursula_use_precompiled(ursula)
+set_target_properties(ursula PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+# The precompiled header needs -fPIC instead of -fPIE.
+target_compile_options(ursula PRIVATE -fPIC -O1)
+if(verb_sources)
+  add_library(ursula_part_verbs OBJECT ${verb_sources})
+  target_link_libraries(ursula_part_verbs PRIVATE ursula::apps ursula::parts_interfaces)
+  ursula_use_precompiled(ursula_part_verbs)
+  ursula_unity(part_verbs 12)
+  target_compile_options(ursula_part_verbs PRIVATE -O1)
+  target_link_libraries(ursula PRIVATE ursula_part_verbs)
+endif()

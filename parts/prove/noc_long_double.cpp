@@ -1,0 +1,17 @@
+// The NOC's formulas in long double, to measure rounding in doubles.
+
+#include "nocsolver/legs/leg_model_impl.h"
+#include "nocsolver/noc/noc_joints_impl.h"
+#include "parts/prove/effect.h"
+#include "validation/subject/noc_subject_impl.h"
+
+namespace ursula {
+
+template struct MachineParameters<long double>;
+template class Noc<long double>;
+
+Subject longNocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load) {
+  return noc_subject::makeSubject("noc in long double", MachineParameters<long double>(manipulator), load, Corrected{});
+}
+
+}  // namespace ursula

@@ -1,0 +1,10 @@
+// The NOC in 50 digits, for reference values.
+
+#include "base/real50.h"
+#include "nocsolver/legs/leg_model_impl.h"
+#include "nocsolver/noc/noc_joints_impl.h"
+
+namespace ursula {
+template struct MachineParameters<Real50>;
+template class Noc<Real50>;
+}  // namespace ursula
