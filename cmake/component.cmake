@@ -1,11 +1,16 @@
 # A component: one folder as a static library, ursula::NAME. LINKS are the components that its headers may name; PRIVATE
-# are components and libraries that only its sources need. tools/check_structure.py compares both with the plan.
+# are components and libraries that only its sources need. COLD code is compiled at -O1. tools/check_structure.py compares
+# links with the plan.
 function(ursula_component name)
-  cmake_parse_arguments(PARSE_ARGV 1 component "" "" "SOURCES;LINKS;PRIVATE")
+  cmake_parse_arguments(PARSE_ARGV 1 component "COLD" "" "SOURCES;LINKS;PRIVATE")
   add_library(ursula_${name} STATIC ${component_SOURCES})
   add_library(ursula::${name} ALIAS ursula_${name})
   target_link_libraries(ursula_${name} PUBLIC ursula::options ${component_LINKS} PRIVATE fmt::fmt ${component_PRIVATE})
-  ursula_use_precompiled(ursula_${name})
+  if(component_COLD)
+    ursula_use_cold(ursula_${name})
+  else()
+    ursula_use_hot(ursula_${name})
+  endif()
   ursula_unity(${name} 6)
   set_property(GLOBAL APPEND PROPERTY URSULA_COMPONENTS ursula_${name})
 endfunction()

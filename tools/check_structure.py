@@ -137,6 +137,14 @@ def check_type_names(root):
     return findings
 
 
+def check_headers(root):
+    """A lower optimisation has no effect beside the hot precompiled header, so only ursula_use_cold() sets it."""
+    return [f"{path.relative_to(root)}:{number}: -O{level} has no effect beside the hot header: use ursula_use_cold()"
+            for folder in (*CORE.split(), "parts") for path in sorted((root / folder).rglob("CMakeLists.txt"))
+            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+            for level in re.findall(r"(?<![\w-])-O([0-2s])\b", line.split("#")[0])]
+
+
 def check_targets(root):
     """Checks what the CMake targets of each folder link."""
     forbidden = {"base": re.compile(r"(?i)ursula::(?!options|eigen|base)\w+|simbody|mujoco"),
@@ -278,7 +286,7 @@ def main(arguments):
         for equation in EQUATIONS:
             print(f"({equation})", ", ".join(f"{p}:{n}" for p, n in tags.get(equation, {}).items()) or "—")
     else:
-        findings = (check_includes(root) + check_type_names(root) + check_targets(root) + components.check_components(root) + check_equations(root)
+        findings = (check_includes(root) + check_type_names(root) + check_targets(root) + check_headers(root) + components.check_components(root) + check_equations(root)
                     + named_paths.check_paths(root) + named_paths.check_subfolders(root))
     print(*findings, sep="\n", end="\n" if findings else "", file=sys.stderr)
     if not findings and not only_tags:

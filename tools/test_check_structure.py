@@ -81,7 +81,7 @@ class CheckStructure(unittest.TestCase):
                 (root / path).parent.mkdir(parents=True, exist_ok=True)
                 (root / path).write_text(text, encoding="utf-8")
             return (check_structure.check_includes(root) + check_structure.check_type_names(root)
-                    + check_structure.check_targets(root) + components.check_components(root)
+                    + check_structure.check_targets(root) + check_structure.check_headers(root) + components.check_components(root)
                     + check_structure.check_equations(root) + named_paths.check_paths(root) + named_paths.check_subfolders(root))
 
     def assert_caught(self, expected, **changes):
@@ -141,6 +141,7 @@ class CheckStructure(unittest.TestCase):
         self.assert_caught("nocsolver may not link", nocsolver__CMakeLists_DOT_txt=("", "link(${Simbody_LIBRARIES})\n"))
         self.assert_caught("nocsolver may not link", nocsolver__CMakeLists_DOT_txt=("", "link(TBB::tbb)\n"))
         self.assert_caught("simbody may not link", simbody__CMakeLists_DOT_txt=("", "link(ursula::nocsolver)\n"))
+        self.assert_caught("use ursula_use_cold()", base__CMakeLists_DOT_txt=("", "target_compile_options(b PRIVATE -O1)\n"))
         self.assert_caught("base may not link", base__CMakeLists_DOT_txt=("", "link(ursula::model)\n"))
         self.assert_caught("model may not link", model__CMakeLists_DOT_txt=("", "link(ursula::nocsolver)\n"))
 
