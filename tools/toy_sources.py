@@ -104,7 +104,7 @@ std::shared_ptr<const Trajectory> readToy(const TomlSection& table) {
             ('    TrajectoryKind{"hold"', '    TrajectoryKind{"toy", "the toy", nullptr, toyKeys, readToy},\n')]})
 
 ENGINE = Toy(
-    new={"engines/toy/toy_calls.cpp": """#include "parts/engines/leg_motion.h"
+    new={"parts/engines/toy/toy_calls.cpp": """#include "parts/engines/leg_motion.h"
 #include "parts/engines/loop_engine.h"
 
 namespace ursula {
@@ -140,9 +140,9 @@ std::unique_ptr<LoopEngine> makeToyCalls(const Manipulator& manipulator, std::sh
 }  // namespace ursula
 """},
     edits={
-        "parts/engines/CMakeLists.txt": [("add_library(ursula::loop_engines ALIAS",
-                                    "target_sources(ursula_loop_engines PRIVATE toy/toy_calls.cpp)\n")],
-        "parts/engines/loop_engine.h": [("std::string simbodyVersion();", "MakeLoopEngine makeToyCalls;\n")],
+        "parts/engines/CMakeLists.txt": [("# The engines that vote in a verdict", "set(toy toy/toy_calls.cpp)\n\n"),
+                                         ("  LINKS ursula::model ursula::closing", "    ${toy}\n")],
+        "parts/engines/loop_engine.h": [("/// DART is a module", "MakeLoopEngine makeToyCalls;\n\n")],
         "parts/engines/loop_engines.cpp": [('      {"MuJoCo", "libmujoco-dev"', """\
       {"Toy", "", alwaysAvailable, [] { return std::string(); }, makeToyCalls, Recipe::open, "weigh the bodies",
        "trees without mass", false},
@@ -223,7 +223,7 @@ Matrix3<S> massMatrix(Toy, const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
                                                   '#include "parts/fast/kernels/toy_kernel.h"\n')]})
 
 VERB = Toy(
-    new={"apps/toy_verb.cpp": """#include "apps/verbs.h"
+    new={"parts/compare/toy_verb.cpp": """#include "apps/verbs.h"
 
 namespace ursula {
 
@@ -239,10 +239,7 @@ void addToy(CLI::App& app, std::function<int()>& run) {
 
 }  // namespace ursula
 """},
-    edits={
-        "apps/CMakeLists.txt": [("  usage.cpp\n", "  toy_verb.cpp\n")],
-        "apps/verbs.h": [("void addSweep(", "void addToy(CLI::App& app, std::function<int()>& run);\n")],
-        "apps/main.cpp": [("        ursula::addSweep,", "        ursula::addToy,\n")]})
+    edits={"parts/CMakeLists.txt": [("compare)", "toy ")]})
 
 KEY = Toy(
     edits={
