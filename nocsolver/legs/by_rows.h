@@ -8,8 +8,8 @@ namespace ursula::legs {
 
 /// A q̇ = n · v_B, and its derivative A q̈ + Ȧ q̇ = n · a_B + ṅ · v_B.
 struct ByRows {
-  template <class S, class R>
-  static Vector3<S> rates(const LegModel<S>&, const LegState<S>& at, const Vector3<S>& v_B, const R&) {
+  template <class S>
+  static Vector3<S> rates(const LegModel<S>&, const LegState<S>& at, const Vector3<S>& v_B) {
     Vector3<S> out;
     for (int j = 0; j < 3; ++j) {
       const JacobianRow<S>& row = at.row[static_cast<std::size_t>(j)];
@@ -19,13 +19,13 @@ struct ByRows {
   }
 
   /// The frame moves as `at` does; `rate`, `v_B`, `a_B` may be those of a column of T. Needs the rows' rates.
-  template <class S, class R>
+  template <class S>
   static Vector3<S> accelerations(const LegModel<S>&, const LegState<S>& at, const Vector3<S>& rate,
-                                  const Vector3<S>& v_B, const Vector3<S>& a_B, const R& reading) {
+                                  const Vector3<S>& v_B, const Vector3<S>& a_B) {
     Vector3<S> out;
     for (int j = 0; j < 3; ++j) {
       const JacobianRow<S>& row = at.row[static_cast<std::size_t>(j)];
-      const S bias = reading.has(FormulaError::drop_bias) ? S(0) : S(row.n_dot.dot(v_B) - row.A_dot * rate(j));
+      const S bias = row.n_dot.dot(v_B) - row.A_dot * rate(j);
       out(j) = (row.n.dot(a_B) + bias) / row.A;
     }
     return out;

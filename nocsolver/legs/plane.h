@@ -7,7 +7,6 @@
 
 #include "nocsolver/legs/leg_model.h"
 #include "nocsolver/legs/leg_state.h"
-#include "nocsolver/legs/reading.h"
 #include "nocsolver/legs/requirements.h"
 
 namespace ursula::legs {
@@ -58,12 +57,12 @@ void setLinks(const Vector3<S>& x_1, const Vector3<S>& e, const Vector3<S>& x_2,
 /// A link that turns about its point O. `arm` leads from O to the mass centre; `carried` is the arm's velocity in the
 /// actual motion. A twist is bilinear in the rates of the frame and the requested rates. So the same lines give the
 /// columns of T (48) and their rates.
-template <bool with_rates, class S, class R>
+template <bool with_rates, class S>
 LinkMotion<S> turning(const Vector3<S>& omega, const Vector3<S>& omega_dot, const Vector3<S>& arm,
-                      const Vector3<S>& carried, const R& reading) {
+                      const Vector3<S>& carried) {
   if constexpr (!with_rates) return {omega, omega.cross(arm), Vector3<S>::Zero(), Vector3<S>::Zero()};
   LinkMotion<S> out{omega, omega.cross(arm), omega_dot, omega_dot.cross(arm)};
-  if (!reading.has(FormulaError::drop_centrifugal)) out.c_ddot += omega.cross(carried);
+  out.c_ddot += omega.cross(carried);
   return out;
 }
 

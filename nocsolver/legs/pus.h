@@ -12,8 +12,8 @@ namespace ursula::legs {
 
 struct Pus : ByRows {
   /// Throws OutOfReach and PointOnAxis.
-  template <class S, class R>
-  static void displacement(const LegModel<S>& leg, int index, const S& t, const R&, LegState<S>& out) {
+  template <class S>
+  static void displacement(const LegModel<S>& leg, int index, const S& t, LegState<S>& out) {
     using std::abs;
     using std::sqrt;
     const InAxes<S> B = inAxes(leg, out.AB);
@@ -44,8 +44,8 @@ struct Pus : ByRows {
   }
 
   /// Rows of (a) along s⃗, x, z.
-  template <class S, class R>
-  static void rows(const LegModel<S>& leg, const R&, LegState<S>& out) {
+  template <class S>
+  static void rows(const LegModel<S>& leg, LegState<S>& out) {
     const S &sin_theta = out.sine[2], &cos_theta = out.cosine[2];
     out.row[0].A = cos_theta;
     out.row[0].n = out.along;
@@ -55,8 +55,8 @@ struct Pus : ByRows {
     out.row[2].n = out.z;
   }
 
-  template <class S, class R>
-  static void rowRates(const LegModel<S>& leg, const R&, LegState<S>& out) {
+  template <class S>
+  static void rowRates(const LegModel<S>& leg, LegState<S>& out) {
     const S &sin_theta = out.sine[2], &cos_theta = out.cosine[2], &theta_dot = out.rate(2);
     const Vector3<S> omega = -out.rate(1) * leg.u + theta_dot * out.x;  // (b)
     out.row[0].A_dot = -sin_theta * theta_dot;
@@ -67,17 +67,16 @@ struct Pus : ByRows {
     out.row[2].n_dot = -out.rate(1) * out.x;
   }
 
-  template <bool with_rates = true, class S, class R>
+  template <bool with_rates = true, class S>
   static LinkMotions<S> links(const LegModel<S>& leg, const LegState<S>& at, const Vector3<S>& rate,
-                              const Vector3<S>& acceleration, const R& reading) {
+                              const Vector3<S>& acceleration) {
     const Vector3<S> zero = Vector3<S>::Zero(), v = rate(0) * leg.u, a = acceleration(0) * leg.u;
     const Vector3<S> now = -at.rate(1) * leg.u + at.rate(2) * at.x;
     const Vector3<S> omega = -rate(1) * leg.u + rate(2) * at.x;  // (b)
     Vector3<S> omega_dot = -acceleration(1) * leg.u + acceleration(2) * at.x;
-    if (!reading.has(FormulaError::drop_coriolis)) omega_dot += (rate(2) * at.rate(1)) * at.z;
+    omega_dot += (rate(2) * at.rate(1)) * at.z;
     LinkMotions<S> out{{zero, v, zero, a},
-                       turning<with_rates>(omega, omega_dot, at.arm_2, Vector3<S>(now.cross(at.arm_2)), reading)};
-    if (reading.has(FormulaError::drop_link_coupling)) return out;
+                       turning<with_rates>(omega, omega_dot, at.arm_2, Vector3<S>(now.cross(at.arm_2)))};
     out.distal.c_dot += v;
     out.distal.c_ddot += a;
     return out;

@@ -15,8 +15,8 @@ namespace ursula::legs {
 
 struct Rus : ByRows {
   /// Throws OutOfReach and PointOnAxis.
-  template <class S, class R>
-  static void displacement(const LegModel<S>& leg, int index, const S& t, const R&, LegState<S>& out) {
+  template <class S>
+  static void displacement(const LegModel<S>& leg, int index, const S& t, LegState<S>& out) {
     using std::abs;
     using std::sqrt;
     const InAxes<S> B = inAxes(leg, out.AB);
@@ -55,8 +55,8 @@ struct Rus : ByRows {
   }
 
   /// Rows: (a) times s⃗; times l (c z + k_y cos ψ u) + c s⃗, which isolates ψ̇; times u.
-  template <class S, class R>
-  static void rows(const LegModel<S>& leg, const R&, LegState<S>& out) {
+  template <class S>
+  static void rows(const LegModel<S>& leg, LegState<S>& out) {
     const S c = leg.s * out.cosine[2], k_y = leg.s * out.sine[2], &sin_psi = out.sine[1], &cos_psi = out.cosine[1];
     out.row[0].A = out.cosine[2] * leg.l * sin_psi;
     out.row[0].n = out.along;
@@ -66,8 +66,8 @@ struct Rus : ByRows {
     out.row[2].n = leg.u;
   }
 
-  template <class S, class R>
-  static void rowRates(const LegModel<S>& leg, const R&, LegState<S>& out) {
+  template <class S>
+  static void rowRates(const LegModel<S>& leg, LegState<S>& out) {
     const S c = leg.s * out.cosine[2], k_y = leg.s * out.sine[2], &sin_psi = out.sine[1], &cos_psi = out.cosine[1];
     const S &phi_dot = out.rate(0), &psi_dot = out.rate(1), &theta_dot = out.rate(2);
     const S c_dot = -k_y * theta_dot, k_y_dot = c * theta_dot, sin_dot = cos_psi * psi_dot;
@@ -82,21 +82,19 @@ struct Rus : ByRows {
     out.row[2].n_dot.setZero();
   }
 
-  template <bool with_rates = true, class S, class R>
+  template <bool with_rates = true, class S>
   static LinkMotions<S> links(const LegModel<S>& leg, const LegState<S>& at, const Vector3<S>& rate,
-                              const Vector3<S>& acceleration, const R& reading) {
+                              const Vector3<S>& acceleration) {
     const Vector3<S> now_1 = -at.rate(0) * leg.u, now_2 = now_1 - at.rate(1) * leg.u - at.rate(2) * at.x_2;
     const Vector3<S> omega_1 = -rate(0) * leg.u, omega_2 = omega_1 - rate(1) * leg.u - rate(2) * at.x_2;  // (b)
     const Vector3<S> omega_1_dot = -acceleration(0) * leg.u;
     Vector3<S> omega_2_dot = omega_1_dot - acceleration(1) * leg.u - acceleration(2) * at.x_2;
     // −θ̇ (−(φ̇ + ψ̇) u) × x₂, where x₂ × u is z₂.
-    if (!reading.has(FormulaError::drop_coriolis))
-      omega_2_dot -= (rate(2) * (at.rate(0) + at.rate(1))) * at.x_2.cross(leg.u);
-    LinkMotions<S> out{turning<with_rates>(omega_1, omega_1_dot, at.arm_1, Vector3<S>(now_1.cross(at.arm_1)), reading),
-                       turning<with_rates>(omega_2, omega_2_dot, at.arm_2, Vector3<S>(now_2.cross(at.arm_2)), reading)};
-    if (reading.has(FormulaError::drop_link_coupling)) return out;
+    omega_2_dot -= (rate(2) * (at.rate(0) + at.rate(1))) * at.x_2.cross(leg.u);
+    LinkMotions<S> out{turning<with_rates>(omega_1, omega_1_dot, at.arm_1, Vector3<S>(now_1.cross(at.arm_1))),
+                       turning<with_rates>(omega_2, omega_2_dot, at.arm_2, Vector3<S>(now_2.cross(at.arm_2)))};
     const LinkMotion<S> R_ =
-        turning<with_rates>(omega_1, omega_1_dot, at.O_2, Vector3<S>(now_1.cross(at.O_2)), reading);
+        turning<with_rates>(omega_1, omega_1_dot, at.O_2, Vector3<S>(now_1.cross(at.O_2)));
     out.distal.c_dot += R_.c_dot;
     out.distal.c_ddot += R_.c_ddot;
     return out;

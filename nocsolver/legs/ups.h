@@ -13,8 +13,8 @@ namespace ursula::legs {
 
 struct Ups : ByRows {
   /// Throws OutOfStroke and PointOnAxis.
-  template <class S, class R>
-  static void displacement(const LegModel<S>& leg, int index, const S& t, const R&, LegState<S>& out) {
+  template <class S>
+  static void displacement(const LegModel<S>& leg, int index, const S& t, LegState<S>& out) {
     using std::sqrt;
     const InAxes<S> B = inAxes(leg, out.AB);
     const S d = sqrt(B.r * B.r + B.k_y * B.k_y);
@@ -43,8 +43,8 @@ struct Ups : ByRows {
   static void requireRates(int, const S&, const LegState<S>&) {}
 
   /// Rows of (a) along x, x × e, e.
-  template <class S, class R>
-  static void rows(const LegModel<S>&, const R&, LegState<S>& out) {
+  template <class S>
+  static void rows(const LegModel<S>&, LegState<S>& out) {
     const S &d = out.cosine[2], &sin_psi = out.sine[1];
     out.row[0].A = -d * sin_psi;
     out.row[0].n = out.x;
@@ -54,8 +54,8 @@ struct Ups : ByRows {
     out.row[2].n = out.e;
   }
 
-  template <class S, class R>
-  static void rowRates(const LegModel<S>& leg, const R&, LegState<S>& out) {
+  template <class S>
+  static void rowRates(const LegModel<S>& leg, LegState<S>& out) {
     const S &d = out.cosine[2], &d_dot = out.rate(2);
     const Vector3<S> omega = -out.rate(0) * leg.u + out.rate(1) * out.x;  // (b)
     out.row[0].A_dot = -d_dot * out.sine[1] - d * out.cosine[1] * out.rate(1);
@@ -66,22 +66,20 @@ struct Ups : ByRows {
     out.row[2].n_dot = omega.cross(out.e);
   }
 
-  template <bool with_rates = true, class S, class R>
+  template <bool with_rates = true, class S>
   static LinkMotions<S> links(const LegModel<S>& leg, const LegState<S>& at, const Vector3<S>& rate,
-                              const Vector3<S>& acceleration, const R& reading) {
+                              const Vector3<S>& acceleration) {
     const Vector3<S> now = -at.rate(0) * leg.u + at.rate(1) * at.x;
     const Vector3<S> omega = -rate(0) * leg.u + rate(1) * at.x;  // (b)
     Vector3<S> omega_dot = -acceleration(0) * leg.u + acceleration(1) * at.x;
-    if (!reading.has(FormulaError::drop_coriolis)) omega_dot += (rate(1) * at.rate(0)) * at.z;
+    omega_dot += (rate(1) * at.rate(0)) * at.z;
     const Vector3<S> arm = at.O_2 + at.arm_2;  // from A to the rod's mass centre; it grows by ḋ e
-    LinkMotions<S> out{turning<with_rates>(omega, omega_dot, at.arm_1, Vector3<S>(now.cross(at.arm_1)), reading),
-                       turning<with_rates>(omega, omega_dot, arm, Vector3<S>(now.cross(arm)), reading)};
-    if (reading.has(FormulaError::drop_link_coupling)) return out;
+    LinkMotions<S> out{turning<with_rates>(omega, omega_dot, at.arm_1, Vector3<S>(now.cross(at.arm_1))),
+                       turning<with_rates>(omega, omega_dot, arm, Vector3<S>(now.cross(arm)))};
     out.distal.c_dot += rate(2) * at.e;
     out.distal.c_ddot += acceleration(2) * at.e;
-    if (reading.has(FormulaError::drop_coriolis)) return out;
     out.distal.c_ddot += rate(2) * now.cross(at.e);
-    if (!reading.has(FormulaError::half_coriolis)) out.distal.c_ddot += at.rate(2) * omega.cross(at.e);
+    out.distal.c_ddot += at.rate(2) * omega.cross(at.e);
     return out;
   }
 };

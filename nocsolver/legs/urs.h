@@ -10,8 +10,8 @@
 //   θ̇ = q q̇ / (l s sin θ)                                            (4b)
 //   φ̇ = h_x / (s sin(ψ+θ) − l sin ψ)                                  (15a)
 //   ψ̇ = (h_y − s θ̇ sin(ψ+θ)) / (s sin(ψ+θ) − l sin ψ)                 (15b)
-// and their derivatives (4c), (8), (18), (19). If a printed formula fails, the correct one stands here; the printed one
-// is used if its error is set.
+// and their derivatives (4c), (8), (18), (19). If a printed formula fails, the correct one stands here;
+// docs/equations.md has the printed one.
 
 #include "nocsolver/legs/plane.h"
 
@@ -19,8 +19,8 @@ namespace ursula::legs {
 
 struct Urs {
   /// Throws OutOfReach and PointOnAxis.
-  template <class S, class R>
-  static void displacement(const LegModel<S>& leg, int index, const S& t, const R& reading, LegState<S>& out) {
+  template <class S>
+  static void displacement(const LegModel<S>& leg, int index, const S& t, LegState<S>& out) {
     using std::abs;
     using std::sqrt;
     const InAxes<S> k = inAxes(leg, out.AB);
@@ -34,13 +34,11 @@ struct Urs {
     const S cos_theta = (one_plus - one_minus) / S(2);  // (paper, eq. 4a)
     const S sin_theta = leg.knee * sqrt(one_minus * one_plus);
     // Both addends of (14b) are angles of triangles with hypotenuse q.
-    const S y = reading.has(FormulaError::eq14b) ? S(-k.k_y) : k.k_y;
-    const S sin_1 = leg.s * sin_theta / q, cos_1 = (leg.l - leg.s * cos_theta) / q, sin_2 = k.r / q, cos_2 = y / q;
+    const S sin_1 = leg.s * sin_theta / q, cos_1 = (leg.l - leg.s * cos_theta) / q, sin_2 = k.r / q, cos_2 = k.k_y / q;
     const S sin_psi = sin_1 * cos_2 + cos_1 * sin_2, cos_psi = cos_1 * cos_2 - sin_1 * sin_2;  // (paper, eq. 14b)
     out.sin_sum = sin_psi * cos_theta + cos_psi * sin_theta;
     out.cos_sum = cos_psi * cos_theta - sin_psi * sin_theta;
-    Plane<S> F = planeOf(leg, k);
-    if (reading.has(FormulaError::eq14a) && F.sine < S(0)) F = planeAt<S>(leg, -F.sine, -F.cosine);
+    const Plane<S> F = planeOf(leg, k);
     out.sine = {F.sine, sin_psi, sin_theta};
     out.cosine = {F.cosine, cos_psi, cos_theta};
     out.axis = {-leg.u, F.x, F.x};
@@ -77,11 +75,11 @@ struct Urs {
   }
 
   /// A and n of φ, ψ, θ: (23), and (15b), (4b) for motors on other joints than the paper's.
-  template <class S, class R>
-  static void rows(const LegModel<S>& leg, const R& reading, LegState<S>& out) {
+  template <class S>
+  static void rows(const LegModel<S>& leg, LegState<S>& out) {
     const S a_ii = leg.s * out.sin_sum - leg.l * out.sine[1], ls_sine = leg.l * leg.s * out.sine[2];
     const S lever = leg.s * out.sin_sum;
-    out.row[0].A = reading.has(FormulaError::eq23) ? lever : a_ii;  // (paper, eq. 23)
+    out.row[0].A = a_ii;  // (paper, eq. 23)
     out.row[0].n = out.x;
     out.row[1].A = a_ii * ls_sine;
     out.row[1].n = ls_sine * leg.u - lever * out.AB;
@@ -90,12 +88,12 @@ struct Urs {
   }
 
   /// Their rates, (26). Needs rates.
-  template <class S, class R>
-  static void rowRates(const LegModel<S>& leg, const R& reading, LegState<S>& out) {
+  template <class S>
+  static void rowRates(const LegModel<S>& leg, LegState<S>& out) {
     const Distance<S> a_ii = distance(leg, out);
     const S lever = leg.s * out.sin_sum, lever_dot = eta(leg, out);
     const S ls_sine = leg.l * leg.s * out.sine[2], ls_sine_dot = leg.l * leg.s * out.cosine[2] * out.rate(2);
-    out.row[0].A_dot = reading.has(FormulaError::eq26_a_dot) ? lever_dot : a_ii.rate;  // (paper, eq. 26)
+    out.row[0].A_dot = a_ii.rate;  // (paper, eq. 26)
     out.row[0].n_dot = out.rate(0) * out.z;  // Q̂ᵢ Ωᵢ Q̂ᵢᵀ xᵢ with (12)
     out.row[1].A_dot = a_ii.rate * ls_sine + a_ii.value * ls_sine_dot;
     out.row[1].n_dot = ls_sine_dot * leg.u - lever_dot * out.AB - lever * out.v_B;
@@ -104,58 +102,47 @@ struct Urs {
   }
 
   /// φ̇, ψ̇, θ̇ for a velocity of Bᵢ; linear in it, as (48) requires.
-  template <class S, class R>
-  static Vector3<S> rates(const LegModel<S>& leg, const LegState<S>& at, const Vector3<S>& v_B, const R& reading) {
+  template <class S>
+  static Vector3<S> rates(const LegModel<S>& leg, const LegState<S>& at, const Vector3<S>& v_B) {
     const Vector3<S> h(at.x.dot(v_B), leg.u.dot(v_B), at.z.dot(v_B));  // (paper, eq. 11b)
     const S lever = leg.s * at.sin_sum, away = lever - leg.l * at.sine[1];
     const S theta = at.AB.dot(v_B) / (leg.l * leg.s * at.sine[2]);            // (paper, eqs. 4b, 6): q q̇ = AB · v_B
-    const S phi = h.x() / (reading.has(FormulaError::eq15a) ? lever : away);  // (paper, eq. 15a)
-    S theta_read = theta;
-    if (reading.has(FormulaError::eq15b)) {
-      using std::atan2;
-      theta_read = atan2(at.sine[2], at.cosine[2]);
-    }
-    return {phi, (h.y() - theta_read * lever) / away, theta};  // (paper, eq. 15b)
+    const S phi = h.x() / away;                                               // (paper, eq. 15a)
+    return {phi, (h.y() - theta * lever) / away, theta};                      // (paper, eq. 15b)
   }
 
   /// φ̈, ψ̈, θ̈ for an acceleration of Bᵢ. The frame moves as `at` does; `rate`, `v_B` and `a_B` may be those of a
   /// column of T. So the same formulas give its rate.
-  template <class S, class R>
+  template <class S>
   static Vector3<S> accelerations(const LegModel<S>& leg, const LegState<S>& at, const Vector3<S>& rate,
-                                  const Vector3<S>& v_B, const Vector3<S>& a_B, const R& reading) {
-    using std::atan2;
+                                  const Vector3<S>& v_B, const Vector3<S>& a_B) {
     const S ls = leg.l * leg.s, q2 = at.AB.squaredNorm(), lever = leg.s * at.sin_sum;
     const S q_q_dot = at.AB.dot(at.v_B), q_dot2 = q_q_dot * at.AB.dot(v_B) / q2;
     // (Q̂ Ωᵢ Qᵢ)ᵀ v_B = −ωᵢ × h with ωᵢ = [0, −φ̇, 0] of (12).
     const S h_dot_x = at.x.dot(a_B) + at.rate(0) * at.z.dot(v_B), h_dot_y = leg.u.dot(a_B);  // (paper, eq. 18)
     const S q_q_ddot = at.v_B.dot(v_B) + a_B.dot(at.AB) - q_dot2;                            // (paper, eq. 8)
-    const S first = reading.has(FormulaError::eq4c) ? q2 : q_dot2;
     const S theta =
-        (first + q_q_ddot - ls * at.rate(2) * rate(2) * at.cosine[2]) / (ls * at.sine[2]);  // (paper, eq. 4c)
+        (q_dot2 + q_q_ddot - ls * at.rate(2) * rate(2) * at.cosine[2]) / (ls * at.sine[2]);  // (paper, eq. 4c)
     const Distance<S> away = distance(leg, at);
-    S phi = (h_dot_x - away.rate * rate(0)) / away.value;  // (paper, eq. 19a)
-    if (reading.has(FormulaError::eq19a)) phi = (h_dot_x - eta(leg, at) * atan2(at.sine[0], at.cosine[0])) / lever;
-    const S factor = reading.has(FormulaError::eq19b) ? S(1) : rate(1);
+    const S phi = (h_dot_x - away.rate * rate(0)) / away.value;  // (paper, eq. 19a)
     const S psi =
-        (h_dot_y - eta(leg, at) * rate(2) - theta * lever - away.rate * factor) / away.value;  // (paper, eq. 19b)
+        (h_dot_y - eta(leg, at) * rate(2) - theta * lever - away.rate * rate(1)) / away.value;  // (paper, eq. 19b)
     return {phi, psi, theta};
   }
 
   /// Both links, for rates and accelerations that may be those of a column of T; the frame moves as `at` does.
-  template <bool with_rates = true, class S, class R>
+  template <bool with_rates = true, class S>
   static LinkMotions<S> links(const LegModel<S>& leg, const LegState<S>& at, const Vector3<S>& rate,
-                              const Vector3<S>& acceleration, const R& reading) {
+                              const Vector3<S>& acceleration) {
     const S sum = rate(1) + rate(2), sum_now = at.rate(1) + at.rate(2), sum_dot = acceleration(1) + acceleration(2);
     const Direction<S> e = direction(at.cosine[1], at.sine[1], at.rate(1), rate(1), acceleration(1));
     const Direction<S> s = direction(S(-at.cos_sum), S(-at.sin_sum), sum_now, sum, sum_dot);
     const Direction<S> first = scaled(leg.rho, e), along = scaled(leg.sigma, s);  // (paper, eqs. 39a, 39b)
     Direction<S> second = scaled(leg.l, e);
-    if (reading.has(FormulaError::drop_link_coupling)) second = scaled(S(0), second), second.at = leg.l * e.at;
     second = {second.at + along.at, second.now + along.now, second.dot + along.dot, second.ddot + along.ddot};
     const Turn<S> F{at.rate(0), rate(0), acceleration(0)};
-    LinkMotions<S> out{inPlane<with_rates>(F, rate(1), acceleration(1), first, reading),
-                       inPlane<with_rates>(F, sum, sum_dot, second, reading)};
-    if (with_rates) readFormulaErrorsOf43b<S>(F, second, leg.l * e.at + s.at, leg.sigma, reading, out.distal.c_ddot);
+    LinkMotions<S> out{inPlane<with_rates>(F, rate(1), acceleration(1), first),
+                       inPlane<with_rates>(F, sum, sum_dot, second)};
     Matrix3<S> to_base;
     to_base << at.x, leg.u, at.z;
     for (LinkMotion<S>* link : {&out.proximal, &out.distal}) {
@@ -199,36 +186,17 @@ struct Urs {
   }
 
   /// A link in Fᵢ that turns about x by χ, with its mass centre at `c`.
-  template <bool with_rates, class S, class R>
-  static LinkMotion<S> inPlane(const Turn<S>& F, const S& chi_dot, const S& chi_ddot, const Direction<S>& c,
-                               const R& reading) {
-    const S sign = reading.has(FormulaError::eq16) ? S(1) : S(-1),
-            sign_dot = reading.has(FormulaError::eq17) ? S(1) : S(-1);
+  template <bool with_rates, class S>
+  static LinkMotion<S> inPlane(const Turn<S>& F, const S& chi_dot, const S& chi_ddot, const Direction<S>& c) {
     LinkMotion<S> out;
-    out.omega = Vector3<S>(chi_dot, sign * F.rate, S(0));  // (paper, eq. 16)
+    out.omega = Vector3<S>(chi_dot, -F.rate, S(0));  // (paper, eq. 16)
     out.c_dot = turned(F.rate, c.at) + c.dot;              // (paper, eqs. 41a, 41b)
     if constexpr (!with_rates) return out;
-    out.omega_dot = Vector3<S>(chi_ddot, sign_dot * F.acceleration, F.now * chi_dot);  // (paper, eqs. 17a, 17b)
+    out.omega_dot = Vector3<S>(chi_ddot, -F.acceleration, F.now * chi_dot);  // (paper, eqs. 17a, 17b)
     out.c_ddot = turned(F.acceleration, c.at) + c.ddot;                                // (paper, eqs. 43a, 43b)
-    if (!reading.has(FormulaError::drop_centrifugal)) out.c_ddot += turned(F.now, turned(F.rate, c.at));        // Ω²
-    if (!reading.has(FormulaError::drop_coriolis)) out.c_ddot += turned(F.rate, c.now) + turned(F.now, c.dot);  // 2Ω
+    out.c_ddot += turned(F.now, turned(F.rate, c.at));        // Ω²
+    out.c_ddot += turned(F.rate, c.now) + turned(F.now, c.dot);  // 2Ω
     return out;
-  }
-
-  /// (43b) with its own printed errors. `printed` is l [e] + [s].
-  template <class S, class R>
-  static void readFormulaErrorsOf43b(const Turn<S>& F, const Direction<S>& d, const Vector3<S>& printed, const S& sigma,
-                                     const R& reading, Vector3<S>& d_ddot) {
-    // (Ω̇ᵢ + Ωᵢ²) acts on w; as printed, σ is added to each component of [s].
-    const bool sigma_error = reading.has(FormulaError::eq43b_sigma),
-               rate_error = reading.has(FormulaError::eq43b_omega_dot);
-    if (sigma_error || rate_error) {
-      const Vector3<S> w = sigma_error ? Vector3<S>(printed + Vector3<S>::Constant(sigma)) : d.at;
-      const S square = rate_error ? F.acceleration : F.rate, other = rate_error ? F.acceleration : F.now;
-      d_ddot += turned(F.acceleration, Vector3<S>(w - d.at)) + turned(other, turned(square, w)) -
-                turned(F.now, turned(F.rate, d.at));
-    }
-    if (reading.has(FormulaError::eq43b_doubled)) d_ddot += d.ddot;
   }
 };
 

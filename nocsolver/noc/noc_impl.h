@@ -30,58 +30,52 @@ S frictionForce(const S& viscous, const S& coulomb, const S& speed, const S& rat
 
 // --- M, W and the wrenches ------------------------------------------------------------------------------------------
 
-template <class S, class Formulas>
-S Noc<S, Formulas>::massOf(int body) const {
+template <class S>
+S Noc<S>::massOf(int body) const {
   if (body == legs::platform) return machine_.mass;
   if (body % leg_count >= machine_.legs_in_all) return S(0);
   const LegModel<S>& leg = machine_.legs[legs::at(body % leg_count)];
   if (body < leg_count) return leg.mass_1;
-  return formulas_.has(FormulaError::drop_mass_distal) ? S(0) : leg.mass_2;
+  return leg.mass_2;
 }
 
 /// Tensors about the mass centres, in B, from the displacements.
-template <class S, class Formulas>
-BodyTensors<S> Noc<S, Formulas>::tensors(const NocWorkspace<S>& work) const {
+template <class S>
+BodyTensors<S> Noc<S>::tensors(const NocWorkspace<S>& work) const {
   BodyTensors<S> out;
   out.fill(Matrix3<S>::Zero());
   const auto turned = [](const Matrix3<S>& frame, const Matrix3<S>& I) {
     return Matrix3<S>(frame * I * frame.transpose());
   };
-  const bool links_in_B = formulas_.has(FormulaError::untwisted_tensors);
   for (int i = 0; i < machine_.legs_in_all; ++i) {
     const LegModel<S>& leg = machine_.legs[legs::at(i)];
     const LegState<S>& at = work.legs[legs::at(i)];
-    out[legs::at(i)] = links_in_B ? leg.I_1 : turned(at.R_1, leg.I_1);              // (paper, eq. 46a)
-    out[legs::at(leg_count + i)] = links_in_B ? leg.I_2 : turned(at.R_2, leg.I_2);  // (paper, eq. 46b)
+    out[legs::at(i)] = turned(at.R_1, leg.I_1);              // (paper, eq. 46a)
+    out[legs::at(leg_count + i)] = turned(at.R_2, leg.I_2);  // (paper, eq. 46b)
   }
-  if (formulas_.has(FormulaError::mass_for_inertia)) return out;
-  const bool platform_in_B = formulas_.has(FormulaError::untwisted_platform);
-  out.back() = platform_in_B ? machine_.I_M : turned(work.Q, machine_.I_M);  // (paper, eq. 46c)
+  out.back() = turned(work.Q, machine_.I_M);  // (paper, eq. 46c)
   return out;
 }
 
 /// Mᵢ x of (29), (30b).
-template <class S, class Formulas>
-Vector6<S> Noc<S, Formulas>::M(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const {
+template <class S>
+Vector6<S> Noc<S>::M(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const {
   Vector6<S> out;
   out << work.I_B[legs::at(body)] * x.template head<3>(), massOf(body) * x.template tail<3>();  // (paper, eq. 29)
   return out;
 }
 
 /// Wᵢ x of (29), (30b).
-template <class S, class Formulas>
-Vector6<S> Noc<S, Formulas>::W(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const {
+template <class S>
+Vector6<S> Noc<S>::W(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const {
   const Vector3<S> omega = work.bodies[legs::at(body)].twist.template head<3>();
   Vector6<S> out = Vector6<S>::Zero();
-  if (formulas_.has(body == legs::platform ? FormulaError::drop_gyroscopic_platform
-                                           : FormulaError::drop_gyroscopic_legs))
-    return out;
   out.template head<3>() = omega.cross(Vector3<S>(x.template head<3>()));  // (paper, eq. 29)
   return out;
 }
 
-template <class S, class Formulas>
-BodyVector<S> Noc<S, Formulas>::inertiaWrench(const NocWorkspace<S>& work) const {
+template <class S>
+BodyVector<S> Noc<S>::inertiaWrench(const NocWorkspace<S>& work) const {
   BodyVector<S> w_n = BodyVector<S>::Zero();
   for (int b = 0; b < body_count; ++b) {
     const BodyMotion<S>& body = work.bodies[legs::at(b)];
@@ -90,18 +84,17 @@ BodyVector<S> Noc<S, Formulas>::inertiaWrench(const NocWorkspace<S>& work) const
   return w_n;
 }
 
-template <class S, class Formulas>
-BodyVector<S> Noc<S, Formulas>::gravityWrench() const {
+template <class S>
+BodyVector<S> Noc<S>::gravityWrench() const {
   BodyVector<S> w_g = BodyVector<S>::Zero();
   for (int b = 0; b < body_count; ++b)
-    if (!formulas_.has(b == legs::platform ? FormulaError::drop_gravity_platform : FormulaError::drop_gravity_legs))
-      legs::block(w_g, b).template tail<3>() = massOf(b) * machine_.gravity;  // (paper, eq. 45)
+    legs::block(w_g, b).template tail<3>() = massOf(b) * machine_.gravity;  // (paper, eq. 45)
   return w_g;
 }
 
 /// Adds an effort's wrench at joint j of leg i to the outboard link; the inboard link, or the base, takes the reaction.
-template <class S, class Formulas>
-void Noc<S, Formulas>::addJointWrench(const NocWorkspace<S>& work, int i, int j, const S& effort,
+template <class S>
+void Noc<S>::addJointWrench(const NocWorkspace<S>& work, int i, int j, const S& effort,
                                       BodyVector<S>& w) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   const LegState<S>& at = work.legs[legs::at(i)];
@@ -122,10 +115,9 @@ void Noc<S, Formulas>::addJointWrench(const NocWorkspace<S>& work, int i, int j,
 }
 
 /// w^d of (35): joint friction.
-template <class S, class Formulas>
-BodyVector<S> Noc<S, Formulas>::dissipativeWrench(const NocWorkspace<S>& work) const {
+template <class S>
+BodyVector<S> Noc<S>::dissipativeWrench(const NocWorkspace<S>& work) const {
   BodyVector<S> w_d = BodyVector<S>::Zero();
-  if (formulas_.has(FormulaError::drop_friction)) return w_d;
   for (int i = 0; i < machine_.legs_in_all; ++i)
     for (int j = 0; j < 3; ++j) {
       const LegModel<S>& leg = machine_.legs[legs::at(i)];
@@ -138,17 +130,16 @@ BodyVector<S> Noc<S, Formulas>::dissipativeWrench(const NocWorkspace<S>& work) c
 }
 
 /// Moves the load to the platform's mass centre.
-template <class S, class Formulas>
-BodyVector<S> Noc<S, Formulas>::loadWrench(const Motion<S>& motion, const Vector6<S>& load) const {
+template <class S>
+BodyVector<S> Noc<S>::loadWrench(const Motion<S>& motion, const Vector6<S>& load) const {
   BodyVector<S> w_e = BodyVector<S>::Zero();
   const Vector3<S> force = load.template tail<3>();
-  if (!formulas_.has(FormulaError::drop_load))
-    legs::block(w_e, legs::platform) << load.template head<3>() - platformArm(motion).cross(force), force;
+  legs::block(w_e, legs::platform) << load.template head<3>() - platformArm(motion).cross(force), force;
   return w_e;
 }
 
-template <class S, class Formulas>
-BodyVector<S> Noc<S, Formulas>::actuatorWrench(const NocWorkspace<S>& work, const Vector6<S>& efforts) const {
+template <class S>
+BodyVector<S> Noc<S>::actuatorWrench(const NocWorkspace<S>& work, const Vector6<S>& efforts) const {
   BodyVector<S> w_a = BodyVector<S>::Zero();
   for (int m = 0; m < motor_count; ++m) {
     const Motor& motor = machine_.motors[legs::at(m)];
@@ -158,8 +149,8 @@ BodyVector<S> Noc<S, Formulas>::actuatorWrench(const NocWorkspace<S>& work, cons
 }
 
 /// Sets t and ṫ of (30a), and the tensors for M of (30b).
-template <class S, class Formulas>
-void Noc<S, Formulas>::setBodies(const Motion<S>& motion, NocWorkspace<S>& work) const {
+template <class S>
+void Noc<S>::setBodies(const Motion<S>& motion, NocWorkspace<S>& work) const {
   bodyMotions(motion, work, work.bodies);  // (paper, eq. 30a)
   work.I_B = tensors(work);                // (paper, eq. 30b)
 }
@@ -169,27 +160,26 @@ void Noc<S, Formulas>::setBodies(const Motion<S>& motion, NocWorkspace<S>& work)
 // A rotor that turns with its motor's rate q̇ adds the energy ½ j q̇² to that of (30a). By Lagrange's equations
 //   I q̈ + C q̇ becomes (I + diag j) q̈ + C q̇, in (36), and τ^a of (37) gains j q̈.
 
-template <class S, class Formulas>
-bool Noc<S, Formulas>::hasRotors() const {
+template <class S>
+bool Noc<S>::hasRotors() const {
   for (int i = 0; i < machine_.legs_in_all; ++i)
     if (machine_.legs[legs::at(i)].has_rotor) return true;
   return false;
 }
 
-template <class S, class Formulas>
-Vector6<S> Noc<S, Formulas>::rotors() const {
+template <class S>
+Vector6<S> Noc<S>::rotors() const {
   Vector6<S> j;
   for (int m = 0; m < motor_count; ++m) {
     const Motor& motor = machine_.motors[legs::at(m)];
     j(m) = machine_.legs[legs::at(motor.leg)].rotor[legs::at(motor.joint)];
   }
-  if (formulas_.has(FormulaError::drop_rotor)) j.setZero();
   return j;
 }
 
 /// j q̈ for the accelerations in `work`.
-template <class S, class Formulas>
-Vector6<S> Noc<S, Formulas>::rotorEfforts(const NocWorkspace<S>& work) const {
+template <class S>
+Vector6<S> Noc<S>::rotorEfforts(const NocWorkspace<S>& work) const {
   Vector6<S> out = rotors();
   for (int m = 0; m < motor_count; ++m) {
     const Motor& motor = machine_.motors[legs::at(m)];
@@ -200,26 +190,23 @@ Vector6<S> Noc<S, Formulas>::rotorEfforts(const NocWorkspace<S>& work) const {
 
 // --- inverse and direct dynamics ------------------------------------------------------------------------------------
 
-template <class S, class Formulas>
-Vector6<S> Noc<S, Formulas>::inverseDynamics(const Motion<S>& motion, NocWorkspace<S>& work,
+template <class S>
+Vector6<S> Noc<S>::inverseDynamics(const Motion<S>& motion, NocWorkspace<S>& work,
                                              const Vector6<S>& load) const {
   inverseKinematics(motion, work);
   jacobians(motion, work);
   setBodies(motion, work);
   twistShaping(motion, work);
-  BodyVector<S> w_n = inertiaWrench(work);
-  if (formulas_.has(FormulaError::drop_inertia)) w_n.setZero();
+  const BodyVector<S> w_n = inertiaWrench(work);
   const BodyVector<S> w_g = gravityWrench() + loadWrench(motion, load), w_d = dissipativeWrench(work);
   Vector6<S> tau = -work.T.transpose() * (w_n + w_g + w_d);  // (paper, eq. 37)
   if (hasRotors()) tau += rotorEfforts(work);
-  if (formulas_.has(FormulaError::scaled_efforts)) tau *= S(1.001);
-  if (formulas_.has(FormulaError::scaled_first_effort)) tau(0) *= S(1 + 1e-7);
   return tau;
 }
 
 /// M X, body by body.
-template <class S, class Formulas>
-TwistShaping<S> Noc<S, Formulas>::massTimes(const BodyTensors<S>& tensors, const TwistShaping<S>& X) const {
+template <class S>
+TwistShaping<S> Noc<S>::massTimes(const BodyTensors<S>& tensors, const TwistShaping<S>& X) const {
   TwistShaping<S> out;
   for (int b = 0; b < body_count; ++b) {
     legs::block(out, b).template topRows<3>().noalias() =
@@ -229,26 +216,37 @@ TwistShaping<S> Noc<S, Formulas>::massTimes(const BodyTensors<S>& tensors, const
   return out;
 }
 
-template <class S, class Formulas>
-Matrix6<S> Noc<S, Formulas>::I(const NocWorkspace<S>& work) const {
+template <class S>
+Matrix6<S> Noc<S>::I(const NocWorkspace<S>& work) const {
   Matrix6<S> I = work.T.transpose().lazyProduct(massTimes(work.I_B, work.T));  // (paper, eq. 34)
   if (hasRotors()) I.diagonal() += rotors();
   return I;
 }
 
-template <class S, class Formulas>
-Matrix6<S> Noc<S, Formulas>::C(const NocWorkspace<S>& work) const {
+template <class S>
+Matrix6<S> Noc<S>::C(const NocWorkspace<S>& work) const {
   TwistShaping<S> sum = massTimes(work.I_B, work.T_rate);
-  if (formulas_.has(FormulaError::drop_T_rate)) sum.setZero();
   const TwistShaping<S> MT = massTimes(work.I_B, work.T);
   for (int b = 0; b < body_count; ++b)
-    for (int m = 0; m < motor_count && !formulas_.has(FormulaError::drop_W); ++m)
+    for (int m = 0; m < motor_count; ++m)
       legs::block(sum, b).col(m) += W(b, work, legs::block(MT, b).col(m));
   return work.T.transpose().lazyProduct(sum);  // (paper, eq. 34)
 }
 
-template <class S, class Formulas>
-Vector6<S> Noc<S, Formulas>::directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, NocWorkspace<S>& work,
+/// τ^g of (36), with the load.
+template <class S>
+Vector6<S> Noc<S>::tauG(const Motion<S>& motion, const NocWorkspace<S>& work, const Vector6<S>& load) const {
+  return work.T.transpose() * (gravityWrench() + loadWrench(motion, load));
+}
+
+/// τ^d of (36).
+template <class S>
+Vector6<S> Noc<S>::tauD(const NocWorkspace<S>& work) const {
+  return work.T.transpose() * dissipativeWrench(work);
+}
+
+template <class S>
+Vector6<S> Noc<S>::directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, NocWorkspace<S>& work,
                                             const Vector6<S>& load) const {
   Motion<S> unaccelerated = motion;
   unaccelerated.omega_dot.setZero();
@@ -257,10 +255,7 @@ Vector6<S> Noc<S, Formulas>::directDynamics(const Motion<S>& motion, const Vecto
   jacobians(unaccelerated, work);
   setBodies(unaccelerated, work);
   twistShapingRate(unaccelerated, work);
-  Vector6<S> tau_g = work.T.transpose() * (gravityWrench() + loadWrench(motion, load));
-  Vector6<S> tau_d = work.T.transpose() * dissipativeWrench(work);
-  if (formulas_.has(FormulaError::drop_tau_g)) tau_g.setZero();
-  if (formulas_.has(FormulaError::drop_tau_d)) tau_d.setZero();
+  const Vector6<S> tau_g = tauG(motion, work, load), tau_d = tauD(work);
   const Vector6<S> q_dot = rates(work).driven(machine_.motors);
   const Vector6<S> q_ddot =
       I(work).llt().solve(Vector6<S>(efforts + tau_g + tau_d - C(work) * q_dot));  // (paper, eq. 36)
@@ -268,8 +263,8 @@ Vector6<S> Noc<S, Formulas>::directDynamics(const Motion<S>& motion, const Vecto
 }
 
 /// M_P = TᵀMT with t = T t_P, by unit twists of the platform.
-template <class S, class Formulas>
-Matrix6<S> Noc<S, Formulas>::massMatrixAtP(const Motion<S>& motion, const NocWorkspace<S>& work) const {
+template <class S>
+Matrix6<S> Noc<S>::massMatrixAtP(const Motion<S>& motion, const NocWorkspace<S>& work) const {
   TwistShaping<S> T = TwistShaping<S>::Zero();
   Matrix6<S> J;  // q̇ of the motors for unit twists
   const Matrix6<S> unit = Matrix6<S>::Identity();

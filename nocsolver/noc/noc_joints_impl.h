@@ -80,8 +80,13 @@ class ConstraintRows {
 
 }  // namespace legs
 
-template <class S, class Formulas>
-Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> Noc<S, Formulas>::D(const Motion<S>& motion,
+template <class S>
+Vector3<S> Noc<S>::sphericalPoint(const Motion<S>& motion, int /*leg*/, const LegState<S>& at) const {
+  return motion.p + at.Qb;
+}
+
+template <class S>
+Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> Noc<S>::D(const Motion<S>& motion,
                                                                      const NocWorkspace<S>& work) const {
   using Rows = legs::ConstraintRows<S>;
   const typename Rows::Body base{-1, Vector3<S>::Zero()}, platform{6 * legs::platform, work.bodies.back().c};
@@ -92,26 +97,24 @@ Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> Noc<S, Formulas>::D(const Motio
     const typename Rows::Body first{6 * i, work.bodies[legs::at(i)].c};
     const typename Rows::Body second{6 * (leg_count + i), work.bodies[legs::at(leg_count + i)].c};
     const int before = rowOf(leg.kind).joints_of_proximal;
-    const Vector3<S> R_ = leg.a + at.O_2, B = motion.p + at.Qb;
+    const Vector3<S> R_ = leg.a + at.O_2, B = sphericalPoint(motion, i, at);
     rows.join(base, first, leg.a + at.O_1, leg, at, 0, before);
     rows.join(first, second, R_, leg, at, before, 3);
-    rows.moveAlike(second, platform, formulas_.has(FormulaError::wrong_D) ? R_ : B, Matrix3<S>::Identity());
+    rows.moveAlike(second, platform, B, Matrix3<S>::Identity());
   }
-  auto D = rows.D();  // (paper, eq. 33)
-  if (formulas_.has(FormulaError::lost_constraint)) D.row(2) = D.row(1);
-  return D;
+  return rows.D();  // (paper, eq. 33)
 }
 
-template <class S, class Formulas>
-BodyVector<S> Noc<S, Formulas>::constraintWrench(const Motion<S>& motion, const Vector6<S>& efforts,
+template <class S>
+BodyVector<S> Noc<S>::constraintWrench(const Motion<S>& motion, const Vector6<S>& efforts,
                                                  const NocWorkspace<S>& work, const Vector6<S>& load) const {
   const Vector6<S> on_links = efforts - rotorEfforts(work);
   const BodyVector<S> w_W = actuatorWrench(work, on_links) + gravityWrench() + dissipativeWrench(work);
   return -inertiaWrench(work) - w_W - loadWrench(motion, load);  // (paper, eq. 31)
 }
 
-template <class S, class Formulas>
-Reactions Noc<S, Formulas>::reactions(const Motion<S>& motion, const Vector6<S>& efforts,
+template <class S>
+Reactions Noc<S>::reactions(const Motion<S>& motion, const Vector6<S>& efforts,
                                       const NocWorkspace<S>& work) const {
   const Vector6<S> on_links = efforts - rotorEfforts(work);
   const BodyVector<S> moving = -inertiaWrench(work) - gravityWrench(), w_d = dissipativeWrench(work);

@@ -12,46 +12,67 @@ namespace legs {
 inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 }  // namespace legs
 
-template <class S, class Formulas>
-Noc<S, Formulas>::Noc(const MachineParameters<S>& machine, Formulas formulas)
-    : machine_(machine), formulas_(std::move(formulas)) {
-  formulas_.read(machine_);
-  if (!formulas_.has(FormulaError::eq2)) return;
-  for (LegModel<S>& leg : machine_.legs) {  // (paper, eq. 2b) as printed: orthonormal only without tilt
-    const Vector3<S> u = leg.u;
-    leg.x_hat = Vector3<S>(u.y(), -u.x(), S(0));
-    leg.u = Vector3<S>(u.x(), u.y(), S(0));
-    leg.z_hat = Vector3<S>::UnitZ();
-  }
-}
-
-template <class S, class Formulas>
-void Noc<S, Formulas>::place(const Motion<S>& motion, int i, LegState<S>& out) const {
+template <class S>
+void Noc<S>::place(const Motion<S>& motion, int i, LegState<S>& out) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   out.Qb.noalias() = motion.Q * leg.b;
   out.AB = (motion.p - leg.a) + out.Qb;  // (paper, eq. 3), in an order that keeps digits far from the base's origin
-  if (formulas_.has(FormulaError::eq5)) out.AB = motion.p + out.Qb + leg.a;
-  legs::withLeg(leg.kind, [&](auto kind) {
-    kind.displacement(leg, i, motion.t, formulas_, out);
-    out.R_1 << out.x_1, out.e.cross(out.x_1), out.e;          // (paper, eq. 40)
-    out.R_2 << out.x_2, out.along.cross(out.x_2), out.along;  // (paper, eq. 40)
-    out.arm_1 = leg.rho * out.e;
-    out.arm_2 = leg.sigma * out.along;
-    kind.ends(leg, out);
-    formulas_.placed(leg, out);
-    kind.rows(leg, formulas_, out);
-  });
-  formulas_.mapped(leg, out);
+  displacement(i, motion.t, out);
+  rows(i, out);
 }
 
-template <class S, class Formulas>
-void Noc<S, Formulas>::displacements(const Motion<S>& motion, NocWorkspace<S>& work) const {
+template <class S>
+void Noc<S>::displacement(int i, const S& t, LegState<S>& out) const {
+  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  legs::withLeg(leg.kind, [&](auto kind) {
+    kind.displacement(leg, i, t, out);
+    setFrames(leg, out);
+    kind.ends(leg, out);
+  });
+}
+
+/// Frames of the links, and the way along them to the mass centres.
+template <class S>
+void Noc<S>::setFrames(const LegModel<S>& leg, LegState<S>& out) {
+  out.R_1 << out.x_1, out.e.cross(out.x_1), out.e;          // (paper, eq. 40)
+  out.R_2 << out.x_2, out.along.cross(out.x_2), out.along;  // (paper, eq. 40)
+  out.arm_1 = leg.rho * out.e;
+  out.arm_2 = leg.sigma * out.along;
+}
+
+template <class S>
+void Noc<S>::rows(int i, LegState<S>& out) const {
+  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  legs::withLeg(leg.kind, [&](auto kind) { kind.rows(leg, out); });
+}
+
+template <class S>
+void Noc<S>::rowRates(int i, LegState<S>& out) const {
+  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  legs::withLeg(leg.kind, [&](auto kind) { kind.rowRates(leg, out); });
+}
+
+template <class S>
+Vector3<S> Noc<S>::jointRates(int i, const LegState<S>& at, const Vector3<S>& v_B) const {
+  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  return legs::withLeg(leg.kind, [&](auto kind) { return Vector3<S>(kind.rates(leg, at, v_B)); });
+}
+
+template <class S>
+Vector3<S> Noc<S>::jointAccelerations(int i, const LegState<S>& at, const Vector3<S>& rate, const Vector3<S>& v_B,
+                                      const Vector3<S>& a_B) const {
+  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  return legs::withLeg(leg.kind, [&](auto kind) { return Vector3<S>(kind.accelerations(leg, at, rate, v_B, a_B)); });
+}
+
+template <class S>
+void Noc<S>::displacements(const Motion<S>& motion, NocWorkspace<S>& work) const {
   work.Q = motion.Q;
   for (int i = 0; i < machine_.legs_in_all; ++i) place(motion, i, work.legs[legs::at(i)]);
 }
 
-template <class S, class Formulas>
-void Noc<S, Formulas>::inverseKinematics(const Motion<S>& motion, NocWorkspace<S>& work) const {
+template <class S>
+void Noc<S>::inverseKinematics(const Motion<S>& motion, NocWorkspace<S>& work) const {
   work.Q = motion.Q;
   for (int i = 0; i < machine_.legs_in_all; ++i) {
     const LegModel<S>& leg = machine_.legs[legs::at(i)];
@@ -60,12 +81,10 @@ void Noc<S, Formulas>::inverseKinematics(const Motion<S>& motion, NocWorkspace<S
     const Vector3<S> across = motion.omega.cross(at.Qb);
     at.v_B = motion.p_dot + across;
     at.a_B = motion.p_ddot + motion.omega_dot.cross(at.Qb) + motion.omega.cross(across);
-    legs::withLeg(leg.kind, [&](auto kind) {
-      kind.requireRates(i, motion.t, at);
-      at.rate = kind.rates(leg, at, at.v_B, formulas_);
-      kind.rowRates(leg, formulas_, at);
-      at.acceleration = kind.accelerations(leg, at, at.rate, at.v_B, at.a_B, formulas_);
-    });
+    legs::withLeg(leg.kind, [&](auto kind) { kind.requireRates(i, motion.t, at); });
+    at.rate = jointRates(i, at, at.v_B);
+    rowRates(i, at);
+    at.acceleration = jointAccelerations(i, at, at.rate, at.v_B, at.a_B);
   }
 }
 
@@ -83,8 +102,8 @@ JointVariables<S> collect(const MachineParameters<S>& machine, const F& f) {
 }
 }  // namespace legs
 
-template <class S, class Formulas>
-JointVariables<S> Noc<S, Formulas>::angles(const NocWorkspace<S>& work) const {
+template <class S>
+JointVariables<S> Noc<S>::angles(const NocWorkspace<S>& work) const {
   using std::atan2;
   JointVariables<S> q = legs::collect(machine_, [&](int i, int j, Coordinate coordinate) {
     const LegState<S>& at = work.legs[legs::at(i)];
@@ -95,25 +114,24 @@ JointVariables<S> Noc<S, Formulas>::angles(const NocWorkspace<S>& work) const {
     const LegModel<S>& leg = machine_.legs[legs::at(i)];
     const LegState<S>& at = work.legs[legs::at(i)];
     if (leg.kind != LegKind::URS) continue;
-    const S k_y = formulas_.has(FormulaError::eq14b) ? S(-at.AB.dot(leg.u)) : at.AB.dot(leg.u);
     q.psi(i) = atan2(S(leg.s * at.sine[2]), S(leg.l - leg.s * at.cosine[2])) +
-               atan2(S(at.AB.cross(leg.u).norm()), k_y);  // (paper, eq. 14b)
+               atan2(S(at.AB.cross(leg.u).norm()), S(at.AB.dot(leg.u)));  // (paper, eq. 14b)
   }
   return q;
 }
 
-template <class S, class Formulas>
-JointVariables<S> Noc<S, Formulas>::rates(const NocWorkspace<S>& work) const {
+template <class S>
+JointVariables<S> Noc<S>::rates(const NocWorkspace<S>& work) const {
   return legs::collect(machine_, [&](int i, int j, Coordinate) { return work.legs[legs::at(i)].rate(j); });
 }
 
-template <class S, class Formulas>
-JointVariables<S> Noc<S, Formulas>::accelerations(const NocWorkspace<S>& work) const {
+template <class S>
+JointVariables<S> Noc<S>::accelerations(const NocWorkspace<S>& work) const {
   return legs::collect(machine_, [&](int i, int j, Coordinate) { return work.legs[legs::at(i)].acceleration(j); });
 }
 
-template <class S, class Formulas>
-void Noc<S, Formulas>::jacobians(const Motion<S>& motion, NocWorkspace<S>& work) const {
+template <class S>
+void Noc<S>::jacobians(const Motion<S>& motion, NocWorkspace<S>& work) const {
   for (int m = 0; m < motor_count; ++m) {
     const Motor& motor = machine_.motors[legs::at(m)];
     const LegState<S>& leg = work.legs[legs::at(motor.leg)];
@@ -131,16 +149,15 @@ void Noc<S, Formulas>::jacobians(const Motion<S>& motion, NocWorkspace<S>& work)
   legs::requireRegularB<S>(pivots.minCoeff() / pivots.maxCoeff(), motion.t);
 }
 
-template <class S, class Formulas>
-Matrix6<S> Noc<S, Formulas>::platformShaping(const NocWorkspace<S>& work) const {
+template <class S>
+Matrix6<S> Noc<S>::platformShaping(const NocWorkspace<S>& work) const {
   Matrix6<S> T = work.B_transposed.transpose().solve(Matrix6<S>(work.A.asDiagonal()));  // (paper, eq. 24)
   T.template topRows<3>() /= machine_.length;
   return T;
 }
 
-template <class S, class Formulas>
-Matrix6<S> Noc<S, Formulas>::platformShapingRate(const Motion<S>& motion, const NocWorkspace<S>& work) const {
-  if (formulas_.has(FormulaError::drop_row_rates)) return Matrix6<S>::Zero();
+template <class S>
+Matrix6<S> Noc<S>::platformShapingRate(const Motion<S>& motion, const NocWorkspace<S>& work) const {
   Matrix6<S> B_dot;
   Vector6<S> A_dot;
   for (int m = 0; m < motor_count; ++m) {
@@ -149,8 +166,7 @@ Matrix6<S> Noc<S, Formulas>::platformShapingRate(const Motion<S>& motion, const 
     const JacobianRow<S>& row = leg.row[legs::at(motor.joint)];
     const S size = row.n.norm();
     const Vector3<S> n = row.n / size, n_dot = row.n_dot / size;  // scaling a row leaves (25) unchanged
-    const Vector3<S> Qb = formulas_.has(FormulaError::eq26_b_dot) ? machine_.legs[legs::at(motor.leg)].b : leg.Qb;
-    const Vector3<S> Qb_dot = motion.omega.cross(Qb);
+    const Vector3<S> Qb_dot = motion.omega.cross(leg.Qb);
     A_dot(m) = row.A_dot / size;
     B_dot.row(m) << (Qb_dot.cross(n) + leg.Qb.cross(n_dot)).transpose(), n_dot.transpose();  // (paper, eq. 26)
   }

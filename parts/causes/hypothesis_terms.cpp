@@ -2,6 +2,7 @@
 
 #include "nocsolver/errors.h"
 #include "parts/causes/fits.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {

@@ -8,6 +8,7 @@
 
 #include "model/scenario.h"
 #include "parts/fast/solver.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 #include "validation/evidence/injected_fault.h"
 #include "validation/subject/parameters.h"
 #include "validation/subject/subject.h"

@@ -11,7 +11,9 @@ template struct MachineParameters<long double>;
 template class Noc<long double>;
 
 Subject longNocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load) {
-  return noc_subject::makeSubject("noc in long double", MachineParameters<long double>(manipulator), load, Corrected{});
+  return noc_subject::makeSubject<long double>("noc in long double", manipulator, load, [](const Manipulator& machine) {
+    return std::make_shared<const Noc<long double>>(machine);
+  });
 }
 
 }  // namespace ursula

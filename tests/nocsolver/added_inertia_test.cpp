@@ -16,6 +16,7 @@
 #include "parts/fast/fast_dynamics.h"
 #include "nocsolver/noc/noc.h"
 #include "tests/support/vectors.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {
@@ -292,7 +293,7 @@ TEST(AddedInertiaOfRotors, aWrongRotorIsSeen) {
   const Motion<double> motion = rounded(vectorRows(name)[2].motion);
   NocWorkspace<double> work;
   const Vector6d right = Noc<double>(machine).inverseDynamics(motion, work);
-  const Noc<double, WithFormulaErrors> without(machine, WithFormulaErrors(FormulaError::drop_rotor));
+  const WrongNoc<double> without(machine, WithFormulaErrors(FormulaError::drop_rotor));
   EXPECT_GT((without.inverseDynamics(motion, work) - right).norm(), 1e-6 * right.norm());
   const Vector6d direct = Noc<double>(machine).directDynamics(motion, right, work);
   EXPECT_GT((without.directDynamics(motion, right, work) - direct).norm(), 1e-6 * direct.norm());

@@ -10,6 +10,7 @@
 #include "nocsolver/noc/noc.h"
 #include "tests/support/numbers.h"
 #include "tests/support/vectors.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {
@@ -128,7 +129,7 @@ TEST_P(Dynamics, eachWrongTermOfSectionThreeShows) {
   const Vector6d load = load_.cast<double>();
   NocWorkspace<double> work;
   const auto answers = [&](const FormulaError* formula_error) {
-    const Noc<double, WithFormulaErrors> solver(
+    const WrongNoc<double> solver(
         *scenario_.manipulator, formula_error != nullptr ? WithFormulaErrors(*formula_error) : WithFormulaErrors());
     Eigen::VectorXd out(24);
     const Vector6d efforts = solver.inverseDynamics(motion, work, load);

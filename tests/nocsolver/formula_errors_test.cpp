@@ -1,4 +1,4 @@
-// Every error of nocsolver/legs/reading.h changes the solver's results for a moving machine. With no error set the
+// Every error of parts/wrong_formulas/formula_errors.h changes the solver's results for a moving machine. With no error set the
 // results are equal to the last bit.
 
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 #include "nocsolver/noc/noc.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {
@@ -18,8 +19,7 @@ namespace {
 struct Answer {
   explicit Answer(std::string why) : refused(std::move(why)) {}
 
-  template <class R>
-  Answer(const Noc<double, R>& solver, const Motion<double>& motion) {
+  Answer(const Noc<double>& solver, const Motion<double>& motion) {
     NocWorkspace<double> work;
     BodyMotions<double> bodies;
     TwistShaping<double> shaping, shaping_rate;
@@ -58,7 +58,7 @@ struct Answer {
 
 Answer altered(const Manipulator& manipulator, const Motion<double>& motion, const WithFormulaErrors& formula_errors) {
   try {
-    return Answer(Noc<double, WithFormulaErrors>(manipulator, formula_errors), motion);
+    return Answer(WrongNoc<double>(manipulator, formula_errors), motion);
   } catch (const PoseError& error) {
     return Answer(error.what());
   }
@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(Machines, Corrections, testing::ValuesIn(vectorNames())
 TEST(FormulaErrors, canBeSetTogether) {
   const WithFormulaErrors two = WithFormulaErrors(FormulaError::eq15a).set(FormulaError::eq47);
   EXPECT_TRUE(two.has(FormulaError::eq15a) && two.has(FormulaError::eq47));
-  EXPECT_FALSE(two.has(FormulaError::eq16) || Corrected::has(FormulaError::eq15a));
+  EXPECT_FALSE(two.has(FormulaError::eq16));
 }
 
 }  // namespace

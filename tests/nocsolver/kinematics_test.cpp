@@ -10,6 +10,7 @@
 #include "tests/nocsolver/rounding.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {
@@ -24,8 +25,7 @@ struct Answer {
   TwistShaping<Real50> shaping, shaping_rate;
 };
 
-template <class R>
-Answer answerAt(const Noc<Real50, R>& solver, const Motion<Real50>& motion) {
+Answer answerAt(const Noc<Real50>& solver, const Motion<Real50>& motion) {
   Answer out;
   out.motion = motion;
   solver.inverseKinematics(motion, out.work);
@@ -80,10 +80,9 @@ void widenBodies(const Answer& before, const Answer& now, const Answer& after, M
   widen(out.shaped_rates, now.shaping * now.q_ddot.phi + now.shaping_rate * now.q_dot.phi - twist_rates);
 }
 
-template <class R = Corrected>
-Mismatch mismatchOf(const std::string& name, R reading = R{}) {
+Mismatch mismatchOf(const std::string& name, const WithFormulaErrors& errors = {}) {
   const Scenario scenario = vectorScenario(name);
-  const Noc<Real50, R> solver(*scenario.manipulator, reading);
+  const WrongNoc<Real50> solver(*scenario.manipulator, errors);
   const auto trajectory = tumbling(scenario, 20);
   Mismatch out;
   for (const double instant : instantsInside(trajectory->duration(), 3)) {

@@ -9,6 +9,7 @@
 #include "nocsolver/noc/noc.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/vectors.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {
@@ -68,7 +69,7 @@ TYPED_TEST(NoAllocation, inAnyFunctionOfTheSolver) {
 
 TEST(NoAllocationWithFormulaErrors, either) {
   const Scenario scenario = vectorScenario("random-4");
-  const Noc<double, WithFormulaErrors> solver(*scenario.manipulator, WithFormulaErrors(FormulaError::eq15a));
+  const WrongNoc<double> solver(*scenario.manipulator, WithFormulaErrors(FormulaError::eq15a));
   const Motion<double> motion = rounded(vectorRows("random-4")[2].motion);
   NocWorkspace<double> work;
   Vector6d torques;

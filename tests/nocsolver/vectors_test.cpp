@@ -12,6 +12,7 @@
 #include "nocsolver/noc/noc.h"
 #include "tests/nocsolver/rounding.h"
 #include "tests/support/vectors.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {
@@ -64,8 +65,8 @@ Vector6<S> loadOf(const Load* load, const Motion<S>& motion) {
   return out;
 }
 
-template <class S, class R>
-Errors errorsAt(const Noc<S, R>& solver, const Load* load, const Motion<S>& motion, const VectorRow& row,
+template <class S>
+Errors errorsAt(const Noc<S>& solver, const Load* load, const Motion<S>& motion, const VectorRow& row,
                 Errors errors) {
   NocWorkspace<S> work;
   widen(errors.efforts, solver.inverseDynamics(motion, work, loadOf(load, motion)), row.torques);
@@ -157,7 +158,7 @@ TEST_P(WrongVectors, areMissed) {
     all.push_back({error, &Errors::efforts});
   if (scenario.manipulator->leg(0).friction.phi == 0) all.pop_back();
   for (const WrongFormula& wrong : all) {
-    const Noc<double, WithFormulaErrors> solver(*scenario.manipulator, WithFormulaErrors(wrong.error));
+    const WrongNoc<double> solver(*scenario.manipulator, WithFormulaErrors(wrong.error));
     EXPECT_GT(errorsAt(solver, nullptr, rounded(row.motion), row, {}).*wrong.seen, 1e6 * promised)
         << "error " << static_cast<int>(wrong.error);
   }

@@ -15,6 +15,7 @@
 #include "tests/validation/scenario_files.h"
 #include "validation/evidence/reference.h"
 #include "validation/validate.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {

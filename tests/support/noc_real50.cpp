@@ -1,4 +1,4 @@
-// The NOC in 50 digits, for reference values.
+// The NOC in 50 digits and in long double, for reference values.
 
 #include "base/real50.h"
 #include "nocsolver/legs/leg_model_impl.h"
@@ -7,4 +7,6 @@
 namespace ursula {
 template struct MachineParameters<Real50>;
 template class Noc<Real50>;
+template struct MachineParameters<long double>;
+template class Noc<long double>;
 }  // namespace ursula

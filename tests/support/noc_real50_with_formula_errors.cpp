@@ -1,8 +1,8 @@
 // The formulas as printed in 50 digits, only for tests.
 
 #include "base/real50.h"
-#include "nocsolver/noc/noc_joints_impl.h"
+#include "parts/wrong_formulas/wrong_noc_impl.h"
 
 namespace ursula {
-template class Noc<Real50, WithFormulaErrors>;
+template class WrongNoc<Real50>;
 }  // namespace ursula

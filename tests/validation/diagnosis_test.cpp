@@ -12,6 +12,7 @@
 #include "tests/validation/external_torques.h"
 #include "tests/validation/scenario_files.h"
 #include "tests/validation/wrong_solvers.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {

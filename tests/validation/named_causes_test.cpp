@@ -10,6 +10,7 @@
 #include "tests/validation/wrong_solvers.h"
 #include "parts/causes/explanation.h"
 #include "parts/causes/tied_parameters.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {

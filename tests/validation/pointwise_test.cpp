@@ -13,6 +13,7 @@
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/judges.h"
 #include "validation/validate.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {

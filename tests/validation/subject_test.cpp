@@ -11,6 +11,7 @@
 #include "tests/validation/scenario_files.h"
 #include "tests/validation/transformed_numbers.h"
 #include "validation/subject/frame_change.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {

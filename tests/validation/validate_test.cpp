@@ -16,6 +16,7 @@
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/evidence/reference.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <functional>
 #include <memory>
 
 #include "nocsolver/noc/noc.h"
@@ -41,8 +42,8 @@ BodyMotion<double> inDoubles(const BodyMotion<S>& body) {
           body.twist_rate.template cast<double>()};
 }
 
-template <class S, class Formulas>
-KinematicAnswer kinematicsOf(const Noc<S, Formulas>& solver, const Motion<double>& motion) {
+template <class S>
+KinematicAnswer kinematicsOf(const Noc<S>& solver, const Motion<double>& motion) {
   NocWorkspace<S>& work = workspace<NocWorkspace<S>>();
   const Motion<S> m = as<S>(motion);
   KinematicAnswer answer;
@@ -58,11 +59,16 @@ KinematicAnswer kinematicsOf(const Noc<S, Formulas>& solver, const Motion<double
   return answer;
 }
 
-template <class S, class Formulas>
-Subject makeSubject(const char* name, const MachineParameters<S>& machine, const std::shared_ptr<const Load>& load,
-                    const Formulas& reading) {
+template <class S>
+using Solver = std::shared_ptr<const Noc<S>>;
+template <class S>
+using SolverOf = std::function<Solver<S>(const Manipulator&)>;
+
+/// `make` gives the same solver for another machine.
+template <class S>
+Subject makeSubject(const char* name, const Solver<S>& solver, const std::shared_ptr<const Load>& load,
+                    const SolverOf<S>& make) {
   using Work = NocWorkspace<S>;
-  const auto solver = std::make_shared<const Noc<S, Formulas>>(machine, reading);
   Subject subject;
   subject.name = name;
   subject.formulation = Formulation::noc;
@@ -88,10 +94,14 @@ Subject makeSubject(const char* name, const MachineParameters<S>& machine, const
     const Vector6<S> efforts = solver->inverseDynamics(m, work, loadAtP(load.get(), motion).cast<S>());
     return solver->reactions(m, efforts, work);
   };
-  subject.rebuilt = [name, reading](const Manipulator& other) {
-    return makeSubject<S, Formulas>(name, MachineParameters<S>(other), nullptr, reading);
-  };
+  subject.rebuilt = [name, make](const Manipulator& other) { return makeSubject<S>(name, make(other), nullptr, make); };
   return subject;
+}
+
+template <class S>
+Subject makeSubject(const char* name, const Manipulator& machine, const std::shared_ptr<const Load>& load,
+                    const SolverOf<S>& make) {
+  return makeSubject<S>(name, make(machine), load, make);
 }
 
 }  // namespace ursula::noc_subject

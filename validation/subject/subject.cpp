@@ -5,6 +5,7 @@
 #include "validation/subject/noc_subject_impl.h"
 
 namespace ursula {
+
 Vector6d loadAtP(const Load* load, const Motion<double>& motion) {
   if (load == nullptr) return Vector6d::Zero();
   const Wrench<double> wrench = load->at(motion.t);
@@ -34,17 +35,18 @@ void foresee(const Subject& subject, const Trajectory& trajectory, const std::ve
   subject.foresee(motions);
 }
 
+namespace {
+
+noc_subject::Solver<double> nocOf(const Manipulator& machine) { return std::make_shared<const Noc<double>>(machine); }
+
+}  // namespace
+
 Subject nocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load) {
-  return nocSubject(MachineParameters<double>(manipulator), load);
+  return noc_subject::makeSubject<double>("noc", manipulator, load, nocOf);
 }
 
 Subject nocSubject(const MachineParameters<double>& machine, const std::shared_ptr<const Load>& load) {
-  return noc_subject::makeSubject("noc", machine, load, Corrected{});
-}
-
-Subject wrongNocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
-                        const WithFormulaErrors& fault) {
-  return noc_subject::makeSubject("noc with a fault", MachineParameters<double>(manipulator), load, fault);
+  return noc_subject::makeSubject<double>("noc", std::make_shared<const Noc<double>>(machine), load, nocOf);
 }
 
 }  // namespace ursula

@@ -12,7 +12,7 @@
 #include "model/manipulator.h"
 #include "model/motion.h"
 #include "model/scenario.h"
-#include "nocsolver/legs/reading.h"
+#include "nocsolver/legs/leg_model.h"
 
 namespace ursula {
 
@@ -63,10 +63,6 @@ Subject nocSubject(const Manipulator& manipulator, const std::shared_ptr<const L
 
 /// The same for numbers already read.
 Subject nocSubject(const MachineParameters<double>& machine, const std::shared_ptr<const Load>& load);
-
-/// The same with an injected fault, for negative controls.
-Subject wrongNocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
-                        const WithFormulaErrors& fault);
 
 /// Announces to the subject, if it wants to know, the instants of the trajectory that will be asked for, s.
 void foresee(const Subject& subject, const Trajectory& trajectory, const std::vector<double>& instants);

@@ -3,8 +3,7 @@
 #include <bitset>
 #include <functional>
 
-#include "nocsolver/legs/leg_model.h"
-#include "nocsolver/legs/leg_state.h"
+#include "nocsolver/noc/noc.h"
 
 namespace ursula {
 
@@ -61,17 +60,6 @@ enum class FormulaError {
   count
 };
 
-/// The correct formulas, at no cost.
-struct Corrected {
-  static constexpr bool has(FormulaError) { return false; }
-  template <class Model>
-  static constexpr void read(Model&) {}
-  template <class Model, class State>
-  static constexpr void placed(const Model&, State&) {}
-  template <class Model, class State>
-  static constexpr void mapped(const Model&, State&) {}
-};
-
 /// The correct formulas except for the set errors. It can also change the numbers that the solver reads, or a leg's
 /// displacement. For negative controls.
 class WithFormulaErrors {
@@ -86,24 +74,6 @@ class WithFormulaErrors {
     return *this;
   }
   bool has(FormulaError formula_error) const { return formula_errors_.test(static_cast<std::size_t>(formula_error)); }
-
-  void read(MachineParameters<double>& machine) const {
-    if (change_read) change_read(machine);
-  }
-  void placed(const LegModel<double>& model, LegState<double>& leg) const {
-    if (change_leg) change_leg(model, leg);
-  }
-  void mapped(const LegModel<double>& model, LegState<double>& leg) const {
-    if (change_rows) change_rows(model, leg);
-  }
-
-  // The hooks work on doubles only.
-  template <class Model>
-  static void read(Model&) {}
-  template <class Model, class State>
-  static void placed(const Model&, State&) {}
-  template <class Model, class State>
-  static void mapped(const Model&, State&) {}
 
   ReadChange change_read;  ///< changes what the constructor has read
   LegChange change_leg;    ///< runs after the displacement
