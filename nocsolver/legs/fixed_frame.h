@@ -6,7 +6,7 @@
 
 namespace ursula {
 
-/// (paper, eq. 2a) in a form valid for any tilt: x̂ = (u × e_z)/‖·‖, ŷ = u, ẑ = x̂ × u; for an axis along e_z, e_y
+/// (paper, eqs. 2a, 2b) in a form valid for any tilt: x̂ = (u × e_z)/‖·‖, ŷ = u, ẑ = x̂ × u; for an axis along e_z, e_y
 /// replaces e_z.
 template <class S, class Written>
 void setFixedFrame(const Vector3<Written>& axis, Vector3<S>& x_hat, Vector3<S>& y_hat, Vector3<S>& z_hat) {
