@@ -7,15 +7,25 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "validation/limits/further_engines.h"
 #include "model/check_catalogue.h"
+#include "validation/checks/families.h"
+#include "validation/limits/further_engines.h"
 
 namespace ursula {
 namespace {
 
+/// Whether the core or a part of this build judges the check.
+bool isJudged(const CheckRow& check) {
+  const std::vector<CheckFamily>& families = checkFamilies();
+  return std::any_of(families.begin(), families.end(), [&check](const CheckFamily& family) {
+    return std::find(family.checks.begin(), family.checks.end(), check.name) != family.checks.end();
+  });
+}
+
 /// Returns what scenario, subject or build lack for a check; empty if nothing.
 std::string lacking(const CheckRow& check, const Scenario& scenario, const SubjectHas& has) {
   const auto unless = [](bool there, const std::string& why) { return there ? "" : why; };
+  if (!isJudged(check)) return "no part of this build judges it; ./dev build adds all parts";
   const bool of_files = check.needs == CheckNeeds::nothing || check.needs == CheckNeeds::torque_file;
   if (!has.any_instant && !of_files && check.needs != CheckNeeds::load_history)
     return "a file gives torques alone, at its own instants";
