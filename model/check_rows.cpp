@@ -88,7 +88,7 @@ std::vector<CheckRow> checksOfTorques() {
        "The limit of the efforts times the inverse mass matrix, plus the noise of the forces that close the loops.",
        "If torque.pointwise fails, this check fails as well; if only this one fails, Simbody's forward dynamics is "
        "inaccurate there."},
-      {"torque.against_noc", "N m", N::torque_file, G::motors, "Simbody", "File against the NOC",
+      {"torque.against_noc", "N m", N::torque_file, G::motors, "the NOC", "File against the NOC",
        "The file's efforts equal those of this program's solver (37) at the file's own instants.",
        "an error of the NOC itself: torque.pointwise sees it", LimitFrom::measured,
        "The limit of torque.pointwise, plus half a unit of the file's last printed digit.",

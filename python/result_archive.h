@@ -18,8 +18,8 @@ inline void members(Archive& archive, Largest& largest) {
 }
 
 inline void members(Archive& archive, Check& check) {
-  auto& [name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed, off] = check;
-  archive(name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed, off);
+  auto& [name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed, gap, off] = check;
+  archive(name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed, gap, off);
 }
 
 inline void members(Archive& archive, TimeSeries& series) {
@@ -43,8 +43,20 @@ inline void members(Archive& archive, Event& event) {
 }
 
 inline void members(Archive& archive, EffortDeviation& deviation) {
-  auto& [unit, largest, t, where, largest_effort, drift, duration, length, seen, allowed] = deviation;
-  archive(unit, largest, t, where, largest_effort, drift, duration, length, seen, allowed);
+  auto& [unit, largest, t, where, largest_effort, drift, duration, length, seen, seen_for, allowed, without,
+         from_without] = deviation;
+  archive(unit, largest, t, where, largest_effort, drift, duration, length, seen, seen_for, allowed, without,
+          from_without);
+}
+
+inline void members(Archive& archive, Voice& voice) {
+  auto& [engine, formulations] = voice;
+  archive(engine, formulations);
+}
+
+inline void members(Archive& archive, OddOne& odd_one) {
+  auto& [formulations, agree, odd] = odd_one;
+  archive(formulations, agree, odd);
 }
 
 inline void members(Archive& archive, NamedCause& cause) {
@@ -93,10 +105,10 @@ inline void members(Archive& archive, std::shared_ptr<const Scenario>& asked) {
 }
 
 inline void members(Archive& archive, ValidationResult& result) {
-  auto& [scenario, subject, limits, verdict, checks, provenance, run, findings, replay_error, cause, causes, terms,
-         words, windows, deviation, effort, timeseries, curves, events, asked] = result;
-  archive(scenario, subject, limits, verdict, checks, provenance, run, findings, replay_error, cause, causes, terms,
-          words, windows, deviation, effort, timeseries, curves, events, asked);
+  auto& [scenario, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause, causes,
+         terms, words, windows, deviation, effort, timeseries, curves, events, asked] = result;
+  archive(scenario, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause, causes,
+          terms, words, windows, deviation, effort, timeseries, curves, events, asked);
 }
 
 }  // namespace ursula::python

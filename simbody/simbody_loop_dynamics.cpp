@@ -43,8 +43,8 @@ SimbodyLoop::Closure SimbodyLoop::closure() const {
   impl_->realize(SimTK::Stage::Velocity);
   Closure out;
   for (const SimTK::Constraint::Ball& ball : impl_->mechanism.balls) {
-    out.position = std::max(out.position, ball.getPositionErrors(impl_->state).norm());
-    out.velocity = std::max(out.velocity, ball.getVelocityErrors(impl_->state).norm());
+    out.position = larger(out.position, ball.getPositionErrors(impl_->state).norm());
+    out.velocity = larger(out.velocity, ball.getVelocityErrors(impl_->state).norm());
   }
   return out;
 }

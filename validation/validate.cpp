@@ -20,15 +20,17 @@
 namespace ursula {
 namespace {
 
-std::string oddOne(const Evidence& evidence, const ValidationResult& result) {
+void addOddOne(const Evidence& evidence, ValidationResult& result) {
+  result.odd_one = oddOneOut(evidence.engines);
   const bool between = fails(result.checks, "torque.between") && !fails(result.checks, "torque.pointwise");
-  return between ? "the torques under test, between the samples; at the samples: " + oddOneOut(evidence.engines)
-                 : oddOneOut(evidence.engines);
+  result.findings.push_back(
+      {"odd one out of the formulations",
+       (between ? "the torques under test, between the samples; at the samples: " : "") + inWords(result.odd_one)});
 }
 
 /// Releases the judged data, because the time series needs the memory.
 void addFacts(const std::optional<ErrorBudget>& budget, Evidence& evidence, ValidationResult& result) {
-  if (evidence.answered()) result.findings.push_back({"odd one out of the formulations", oddOne(evidence, result)});
+  if (evidence.answered()) addOddOne(evidence, result);
   evidence.engines = std::vector<EngineSample>();
   evidence.invariances = std::vector<InvarianceSamples>();
   addFindings(evidence.samples, evidence.windows, result, evidence.units());
@@ -131,9 +133,9 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   reference.stop();  // the rest is short and turns the finished part into a result
   judgeEveryAnswer(evidence, result.checks);
   addFacts(budget, evidence, result);
-  result.deviation = effortDeviation(evidence, result.checks);
+  result.deviation = effortDeviation(evidence, result.checks, result.odd_one);
   conclude(scenario, evidence.has, 0, result);
-  if (result.verdict == Verdict::fail && subject.formulation == Formulation::external)
+  if (result.verdict == Verdict::fail && subject.formulation == Formulation::external && !onlyOddEngineFails(result))
     explainSolver(scenario, evidence, subject, result);
   sayEfforts(result);
   return result;

@@ -103,11 +103,13 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   const ErrorBudget budget =
       attribute(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan, threads);
   deadline.remove();  // the rest is short and turns the finished part into a result
+  result.odd_one = oddOneOut(external);
+  result.findings.push_back({"odd one out of the formulations", inWords(result.odd_one)});
   addFacts(evidence, budget, result);
-  result.deviation = effortDeviation(evidence, result.checks);
+  result.deviation = effortDeviation(evidence, result.checks, result.odd_one);
   conclude(scenario, evidence.has, replay.between * natural.units.effort(), result);
   addFileFindings(file, result);
-  if (result.verdict == Verdict::fail && partLikelyCause() != nullptr)
+  if (result.verdict == Verdict::fail && !onlyOddEngineFails(result) && partLikelyCause() != nullptr)
     partLikelyCause()(relocated(scenario, natural.origin), file, nullptr, result);
   sayEfforts(result);
   return result;

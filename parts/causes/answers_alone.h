@@ -17,7 +17,7 @@ inline double roundingAt(const ExternalTorques& torques, std::size_t row) {
   return torques.samples[row].conditioning.torqueRounding();
 }
 inline double limitAt(const ExternalTorques& torques, std::size_t row, int motor) {
-  return roundingAt(torques, row) + torques.precision[row](motor);
+  return torques.samples[row].torqueLimits()(motor);
 }
 
 /// The motors that are wrong at some instant, 0-based.

@@ -9,6 +9,7 @@
 #include "parts/causes/answers_alone.h"
 #include "parts/causes/explanation.h"
 #include "parts/causes/hypotheses.h"
+#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
@@ -36,7 +37,7 @@ Deviating deviationOf(const ExternalTorques& torques, int from_motor = 0, int to
       const double error = std::abs(offAt(torques, k, motor));
       if (error <= limitAt(torques, k, motor)) continue;
       is_off = true;
-      if (error > out.largest) out.largest = error, out.worst = k;
+      if (exceeds(error, out.largest)) out.largest = error, out.worst = k;
     }
     if (!is_off) continue;
     if (out.count++ == 0) out.first = k;
@@ -80,7 +81,7 @@ Diagnosis deviationTexts(const MotorNames& motors, const ExternalTorques& torque
     details += fmt::format("{}{} {} at t = {:.6g} s, beyond its limit {}", details.empty() ? "" : "; ", motors(i),
                            amountText(leg, motors.unit(i), largest_torque), torques.file.t[leg.worst],
                            intervalText(torques, leg));
-    if (leg.largest > most) most = leg.largest, worst = i;
+    if (exceeds(leg.largest, most)) most = leg.largest, worst = i;
   }
   if (legs.empty()) return {};
   const std::string kind = motors.kind();
@@ -99,7 +100,7 @@ TorqueResidual residualOf(const Scenario& scenario, const ExternalTorques& torqu
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t k = count == 1 ? 0 : i * (rows - 1) / (count - 1);
     out.add(scenario.trajectory->at(torques.file.t[k]), torques.noc[k], torques.file.torques[k],
-            torques.precision[k].array() + torques.samples[k].conditioning.torqueRounding());
+            torques.samples[k].torqueLimits());
   }
   out.commanded = count;
   out.instants = torques.file.t;
@@ -265,7 +266,7 @@ Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques, con
   const AnswersAlone alone = readAlone(motors, torques, asked);
   if (out.summary.empty() && alone.has_few_digits) {
     ExternalTorques printed = torques;  // a solver's answers have every digit
-    for (Vector6d& row : printed.precision) row.setZero();
+    for (PointwiseSample& sample : printed.samples) sample.torques_given.setZero();
     out = deviationTexts(motors, printed);
   }
   if (out.summary.empty()) return out;

@@ -45,16 +45,15 @@ std::string scaleGroupOf(const std::string& channel) {
       {"closure_p_m", "p_*_m"},
       {"error_q_rad", "q_*"},
       {"closure_v_m_s", "v_*_m_s"},
-      {"error_tau_Nm", "tau_*_Nm"},
-      {"limit_tau_Nm", "tau_*_Nm"},
-      {"error_tau_N", "tau_*_N"},
-      {"limit_tau_N", "tau_*_N"},
       {"error_acceleration_m_s2", "a_*_m_s2"},
       {"limit_acceleration_m_s2", "a_*_m_s2"},
       {"error_energy_J", work_group},
   };
-  const auto found = of.find(channel);
-  return found == of.end() ? groupOf(channel) : found->second;
+  const std::string group = groupOf(channel);
+  for (const char* const of_efforts : {"error_tau", "limit_tau"})
+    if (group.rfind(of_efforts, 0) == 0) return "tau_*" + group.substr(group.rfind('_'));
+  const auto found = of.find(group);
+  return found == of.end() ? group : found->second;
 }
 
 /// Largest finite magnitude of every group. Energy errors get that of the work: torques times angles, forces times

@@ -4,6 +4,7 @@
 
 #include "base/csv.h"
 #include "parts/compare/compare.h"
+#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
@@ -21,7 +22,7 @@ double largestInterpolation(const Comparison& comparison, std::string& channel) 
   double most = 0;
   for (const ChannelComparison& each : comparison.channels) {
     const double share = each.scale > 0 ? each.interpolation / each.scale : 0;
-    if (!(share > most)) continue;
+    if (!exceeds(share, most)) continue;
     most = share;
     channel = each.name;
   }

@@ -96,13 +96,13 @@ class ExciteSearch {
       solver_.inverseKinematics(motion, work_);
       solver_.jacobians(motion, work_);
       const Motors& motors = scenario_.manipulator->motors();
-      out.speed = std::max(out.speed, solver_.rates(work_).driven(motors).cwiseAbs().maxCoeff());
-      out.kappa = std::max(out.kappa, conditionNumber(scaledB(solver_.B(work_), solver_.length())));
+      out.speed = larger(out.speed, solver_.rates(work_).driven(motors).cwiseAbs().maxCoeff());
+      out.kappa = larger(out.kappa, conditionNumber(scaledB(solver_.B(work_), solver_.length())));
       for (int i = 0; i < scenario_.manipulator->legCount(); ++i)
         out.margin = std::min(out.margin, static_cast<double>(solver_.margins(work_, i).sine));
-      out.effort = std::max(out.effort, solver_.inverseDynamics(motion, work_).cwiseAbs().maxCoeff());
-      out.reach = std::max(out.reach, (motion.p - middle_.p).norm());
-      out.turn = std::max(out.turn, Eigen::AngleAxisd(middle_.Q.transpose() * motion.Q).angle());
+      out.effort = larger(out.effort, solver_.inverseDynamics(motion, work_).cwiseAbs().maxCoeff());
+      out.reach = larger(out.reach, (motion.p - middle_.p).norm());
+      out.turn = larger(out.turn, Eigen::AngleAxisd(middle_.Q.transpose() * motion.Q).angle());
     }
     return out;
   }

@@ -198,7 +198,7 @@ class Identification {
       motor.effort = rms(comparison.measured.col(k));
       motor.deviation = rms(E);
       Eigen::Index at = 0;
-      motor.largest = E.cwiseAbs().maxCoeff(&at);
+      motor.largest = E.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&at);
       motor.largest_at_s = comparison.t(at);
       motor.left = rms(whitened_.residual.col(k)) * correction;
       motor.expected = whitened_.expected(k);

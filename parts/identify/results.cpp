@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "validation/subject/torque_names.h"
+#include "validation/verdict/worst_share.h"
 
 namespace ursula::identification {
 namespace {
@@ -121,7 +122,8 @@ std::string identifySentence(const IdentifyResult& result) {
   double worst = 0;
   std::size_t at = 0;
   for (std::size_t k = 0; k < result.motors.size(); ++k)
-    if (const double share = result.motors[k].deviation / std::max(result.motors[k].u_val, 1e-300); share >= worst) {
+    if (const double share = result.motors[k].deviation / std::max(result.motors[k].u_val, 1e-300);
+        exceeds(share, worst)) {
       worst = share;
       at = k;
     }
@@ -129,7 +131,7 @@ std::string identifySentence(const IdentifyResult& result) {
   const std::string size = fmt::format("motor {} deviates by {:.3g} {} (rms) at an uncertainty u_val of {:.3g} {}",
                                        at + 1, motor.deviation, motor.unit, motor.u_val, motor.unit);
   if (result.verdict == Verdict::pass)
-    return "The model agrees within its uncertainty at 95 %: " + size + ", the most of all.";
+    return "The model agrees within its uncertainty at 95 %: " + size + ", the largest share of all.";
   std::string out = (result.verdict == Verdict::fail ? "The model is wrong: " : "Not judged: ") + size + ".";
   if (result.causes.empty()) return out + (result.verdict == Verdict::fail ? " No single number explains it." : "");
   const MeasuredCause& cause = result.causes.front();

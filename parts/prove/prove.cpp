@@ -41,7 +41,7 @@ class TorqueReference {
       for (const PointwiseSample& sample : samples_) {
         const double error =
             (subject.torques(sample.motion) - sample.torques_simbody).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-        change = std::max(change, error);
+        change = larger(change, error);
         beyond |= !(error <= sample.torque.limit);
       }
     } catch (const PoseError&) {
@@ -120,7 +120,7 @@ RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::f
     for (const Check& check : checks[i]) {
       if (!(check.limit > 0)) continue;
       double& share = out.largest_share[check.name];
-      share = std::max(share, check.value / check.limit);
+      share = larger(share, check.value / check.limit);
     }
   }
   return out;

@@ -20,6 +20,7 @@
 #include "validation/subject/scaled_jacobian.h"
 #include "validation/subject/subject.h"
 #include "validation/validate.h"
+#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
@@ -66,7 +67,7 @@ class MotionExtremes {
     for (std::size_t k = 0; k < motions_.size(); ++k)
       for (int m = 0; m < motor_count; ++m)
         if (const double size = std::abs(efforts_[k](m));
-            faults_[k] == PoseFault::none && (size > out.efforts(m) || k == 0)) {
+            faults_[k] == PoseFault::none && (exceeds(size, out.efforts(m)) || k == 0)) {
           out.efforts(m) = size;
           out.times(m) = motions_[k].t;
         }

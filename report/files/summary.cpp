@@ -35,6 +35,7 @@ Json deviationJson(const EffortDeviation& deviation) {
           {"smallest_rtol", deviation.smallestRelative()},
           {"drift_m", deviation.drift},
           {"would_have_been_seen", deviation.seen},
+          {"if_longer_than_s", deviation.seen_for},
           {"allowed", deviation.allowed}};
 }
 

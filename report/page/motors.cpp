@@ -8,6 +8,7 @@
 #include "report/page/html_template.h"
 #include "report/text/quantity.h"
 #include "report/text/text.h"
+#include "validation/verdict/worst_share.h"
 
 namespace ursula::report {
 
@@ -18,8 +19,9 @@ namespace {
 constexpr double may_remain = 0.01;  // share of a deviation that an explanation may leave, as in the diagnosis
 
 bool areWrong(const ValidationResult& result) {
-  return std::any_of(result.checks.begin(), result.checks.end(),
-                     [](const Check& check) { return check.verdict == Verdict::fail && isOf(check, "torque"); });
+  return !onlyOddEngineFails(result) && std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
+    return check.verdict == Verdict::fail && isOf(check, "torque");
+  });
 }
 
 /// Fits a factor or an offset by least squares, over the instants that have both efforts.
@@ -30,8 +32,9 @@ MotorDeviation deviationOf(int motor, const std::vector<double>& t, const std::v
   double off_expected = 0, expected_squared = 0, sum = 0, squared = 0, count = 0;
   for (std::size_t k = 0; k < t.size(); ++k) {
     const double off = given[k] - expected[k];
+    if (k == 0 || exceeds(std::abs(off), out.largest)) out.largest = std::abs(off), out.t = t[k];
     if (!std::isfinite(off)) continue;
-    if (count++ == 0 || std::abs(off) > out.largest) out.largest = std::abs(off), out.t = t[k];
+    ++count;
     off_expected += off * expected[k];
     expected_squared += expected[k] * expected[k];
     sum += off;
@@ -45,10 +48,12 @@ MotorDeviation deviationOf(int motor, const std::vector<double>& t, const std::v
   return out;
 }
 
-/// Returns whether the deviation is within its limit at every instant. The limit exists if all motors have one unit.
-bool isRightThroughout(const ValidationResult& result, const std::string& unit, const std::vector<double>& given,
-                       const std::vector<double>& expected) {
-  const std::vector<double>* limit = result.timeseries.find("limit_tau_" + unit);
+/// Returns whether the deviation is within its limit at every instant. A limit of all motors exists if they have one
+/// unit.
+bool isRightThroughout(const ValidationResult& result, int motor, const std::string& unit,
+                       const std::vector<double>& given, const std::vector<double>& expected) {
+  const std::vector<double>* limit = result.timeseries.find(fmt::format("limit_tau_{}_{}", motor + 1, unit));
+  if (limit == nullptr) limit = result.timeseries.find("limit_tau_" + unit);
   if (limit == nullptr) return false;
   for (std::size_t k = 0; k < limit->size(); ++k)
     if (!(std::abs(given[k] - expected[k]) <= (*limit)[k])) return false;
@@ -124,7 +129,7 @@ std::vector<MotorDeviation> motorsOff(const ValidationResult& result) {
       if (given == nullptr || expected == nullptr) continue;
       out.push_back(deviationOf(motor, *t, *given, *expected));
       out.back().unit = unit;
-      out.back().right = isRightThroughout(result, unit, *given, *expected);
+      out.back().right = isRightThroughout(result, motor, unit, *given, *expected);
       break;
     }
 }

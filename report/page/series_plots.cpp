@@ -29,19 +29,20 @@ std::string effortLabel(const char* what, const std::vector<Indexed>& efforts) {
   return fmt::format("{} ({})", what, text);
 }
 
-/// The column of the efforts' limit, in the unit that they share: "limit_tau_Nm" or "limit_tau_N".
-std::string limitColumn(const TimeSeries& series) {
+/// The column of the motor's own limit, such as "limit_tau_2_N", or else of all in the unit that they share.
+std::string limitColumn(const TimeSeries& series, const std::string& motor) {
+  if (const std::string own = "limit_tau_" + motor; series.find(own) != nullptr) return own;
   return series.find("limit_tau_N") == nullptr ? "limit_tau_Nm" : "limit_tau_N";
 }
 
 /// Adds the decisive limit: the derived one, or a user's tolerance.
-void addEffortLimit(TimePlots& time, Plot& plot, const std::string& unit, double allowed, double side) {
+void addEffortLimit(TimePlots& time, Plot& plot, const Indexed& motor, double allowed, double side) {
   const std::string label = std::string(side < 0 ? "− " : "") + (allowed > 0 ? "your tolerance" : "limit");
-  const Line line = {label, unit, 0, Stroke::limit, {}};
+  const Line line = {label, prettyUnit(motor.unit), 0, Stroke::limit, {}};
   if (allowed > 0)
     time.addValues(plot, std::vector<double>(time.series().rows(), side * allowed), line);
   else
-    time.addColumn(plot, limitColumn(time.series()), line, side);
+    time.addColumn(plot, limitColumn(time.series(), motor.index + "_" + motor.unit), line, side);
 }
 
 void addErrors(TimePlots& time, double allowed) {
@@ -54,7 +55,7 @@ void addErrors(TimePlots& time, double allowed) {
       time.addValues(
           deviation, differences(*efforts[k].values, *expected[k].values, true),
           {"τ" + subscript(efforts[k].index), prettyUnit(efforts[k].unit), static_cast<int>(k), Stroke::line, {}});
-    addEffortLimit(time, deviation, "", allowed, 1);
+    if (allowed > 0 || indexed(series, "limit_tau").empty()) addEffortLimit(time, deviation, {}, allowed, 1);
     time.keep(std::move(deviation));
   }
   Plot acceleration = time.plot(PlotGroup::errors, "Simbody's acceleration under the efforts", "error (m/s²)", true);
@@ -118,7 +119,7 @@ void addEfforts(TimePlots& time, const Motors& motors, double allowed) {
                            fmt::format("deviation ({})", unit));
     time.addValues(motor, differences(*efforts[k].values, *expected[k].values, false),
                    {"τ" + subscript(efforts[k].index) + " − expected", unit, static_cast<int>(k), Stroke::line, {}});
-    for (const double side : {1.0, -1.0}) addEffortLimit(time, motor, unit, allowed, side);
+    for (const double side : {1.0, -1.0}) addEffortLimit(time, motor, efforts[k], allowed, side);
     time.keep(std::move(motor));
   }
 }

@@ -114,6 +114,9 @@ std::string failed(const ValidationResult& result, const ResultFacts& facts) {
                                                 quantity(worst->limit, worst->unit))
                                   : worst->why;
   const std::string title = inEffortWords(result.effort, checkTitle(worst->name));
+  if (onlyOddEngineFails(result))
+    return fmt::format("The odd one out is {}: {} and all other formulations agree. {}: {}.", inWords(result.odd_one),
+                       lower(facts.subject), title, numbers);
   if (onlyFastFails(result.checks))
     return fmt::format("The fast kernels that users call are wrong, {} hold. {}: {} ({}).", lower(facts.subject), title,
                        numbers, worst->largest.where);

@@ -8,8 +8,6 @@
 
 namespace ursula::report {
 
-/// The curve with the sources of the replay's error.
-
 /// The facts of a result, from which texts are made.
 struct ResultFacts {
   std::string subject, motion;  ///< "The NOC's efforts", "the helix"

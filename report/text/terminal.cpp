@@ -144,16 +144,19 @@ std::string motorsText(const std::vector<MotorDeviation>& motors) {
 }
 
 /// The sources of the replay's error, one per line.
-std::string replayText(const ReplayError& found, const std::string& effort) {
+std::string replayText(const ReplayError& found, const ValidationResult& result) {
   std::string out = std::string("dominant error: ") + name(found.dominant);
-  if (found.dominant == ErrorSource::model && !found.measured) out += ": the " + effort + "s are wrong";
+  const bool are_right = onlyOddEngineFails(result);
+  const std::string model = are_right ? result.odd_one.engine() : result.effort + "s";
+  if (found.dominant == ErrorSource::model && !found.measured)
+    out += are_right ? ": " + model + " is wrong" : ": the " + model + " are wrong";
   out += "\n";
   if (!found.measured) return out;
   std::vector<std::vector<std::string>> rows;
   for (const auto& [source, share] : {std::pair<std::string, SourceOfError>("rounding", found.rounding),
                                       {"integration", found.integration},
                                       {"gaps", found.closure},
-                                      {effort + "s", found.model}})
+                                      {model, found.model}})
     rows.push_back({source, fmt::format("{:.3g} m", share.error), fmt::format("± {:.2g} m", share.uncertainty)});
   rows.push_back({"the rest", fmt::format("{:.3g} m", found.unexplained), ""});
   out +=
@@ -171,7 +174,7 @@ bool replayIsOpen(const std::vector<Check>& checks) {
 /// Returns details of the replay and of wrong torques; right torques need none.
 std::string reasonsText(const ValidationResult& result) {
   std::string out;
-  if (result.replay_error && replayIsOpen(result.checks)) out += replayText(*result.replay_error, result.effort);
+  if (result.replay_error && replayIsOpen(result.checks)) out += replayText(*result.replay_error, result);
   if (const std::vector<MotorDeviation> motors = motorsOff(result); !motors.empty())
     out += result.effort + "s against the expected ones:\n" + motorsText(motors);
   if (!result.cause_words.cause.empty()) out += causeText(result.cause_words) + "\n";

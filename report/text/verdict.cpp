@@ -106,15 +106,28 @@ std::string shareText(double share) {
   return share >= 1e-6 ? report::percentText(share) : fmt::format("{:.1e} of the largest", share);
 }
 
+/// Two digits with a plain space before the unit.
+std::string plainQuantity(double value, const char* unit) {
+  std::string text = report::quantity(value, unit, 2);
+  if (const auto joint = text.find("\u00a0"); joint != std::string::npos) text.replace(joint, 2, " ");
+  return text;
+}
+
 std::string driftText(const EffortDeviation& deviation) {
   if (!std::isfinite(deviation.drift) || deviation.largest == 0) return "";
   if (deviation.drift > deviation.length)
     return fmt::format("from errors of this size the open-loop motion may be lost within {:.3g} s; ",
                        deviation.duration);
-  std::string drift = report::quantity(deviation.drift, "m", 2);
-  if (const auto joint = drift.find("\u00a0"); joint != std::string::npos) drift.replace(joint, 2, " ");
-  return fmt::format("from errors of this size the open-loop motion would drift by up to {} in {:.3g} s; ", drift,
-                     deviation.duration);
+  return fmt::format("from errors of this size the open-loop motion would drift by up to {} in {:.3g} s; ",
+                     plainQuantity(deviation.drift, "m"), deviation.duration);
+}
+
+/// Two numbers: smaller errors, or shorter ones between the instants, may be there.
+std::string seenText(const EffortDeviation& deviation, const std::string& effort) {
+  if (!std::isfinite(deviation.seen)) return "";
+  const std::string lasting =
+      deviation.seen_for > 0 ? " that lasts longer than " + plainQuantity(deviation.seen_for, "s") : "";
+  return fmt::format(" An error of {:.1g} of the largest {}{} would have been seen.", deviation.seen, effort, lasting);
 }
 
 /// Rounds up, so that the rounded value passes, too.
@@ -138,17 +151,15 @@ std::string deviationSentence(const ValidationResult& result) {
     return fmt::format("No {} is needed here; the largest that was found is {:.3g} {}.", result.effort,
                        deviation.largest, deviation.unit);
   constexpr double right = 1e-6;  // efforts with larger errors are not called right
-  const std::string seen =
-      std::isfinite(deviation.seen)
-          ? fmt::format(" An error of {:.1g} of the largest {} would have been seen.", deviation.seen, result.effort)
-          : "";
+  const std::string without =
+      deviation.without.empty() ? "" : fmt::format("Against all formulations but {}'s: ", deviation.without);
   return fmt::format(
-      "{} {}: the largest deviation is {} {} of {:.6g} {}, {} at t = {:.4g} s; {}the smallest --rtol that would pass "
+      "{}{} {}: the largest deviation is {} {} of {:.6g} {}, {} at t = {:.4g} s; {}the smallest --rtol that would pass "
       "is {}.{}",
-      deviation.relative() <= right || deviation.largest == 0 ? "Right to" : "Off by at most",
+      without, deviation.relative() <= right || deviation.largest == 0 ? "Right to" : "Off by at most",
       shareText(deviation.relative()), fmt::format(deviation.largest < 1000 ? "{:.3g}" : "{:.0f}", deviation.largest),
       deviation.unit, deviation.largest_effort, deviation.unit, deviation.where, deviation.t, driftText(deviation),
-      roundedUp(deviation.smallestRelative()), seen);
+      roundedUp(deviation.smallestRelative()), seenText(deviation, result.effort));
 }
 
 }  // namespace ursula

@@ -121,6 +121,19 @@ INSTANTIATE_TEST_SUITE_P(
         Control{"alpha_is_no_number", "samples", "motion.twist_rate", [](auto& m) { m.omega_dot.z() = nan; }}),
     [](const auto& control) { return std::string(control.param.name); });
 
+/// A user's limit is compared with the largest error, which has its instant and part.
+TEST(CommandedMotionsLargest, hasItsInstantAndPart) {
+  Scenario scenario = scenarioOf("paper-helix");
+  scenario.trajectory =
+      std::make_shared<const Faulty>(scenario.trajectory, [](auto& m) { m.p.z() += 1e-10 * m.t * m.t; });
+  const Check check = *findCheck(judgeCommandedMotion(scenario), "motion.pose");
+  EXPECT_EQ(check.verdict, Verdict::fail);
+  EXPECT_GE(check.largest.value, check.value);
+  EXPECT_NEAR(check.largest.value, 1e-10 * check.largest.t * check.largest.t, 1e-13);
+  EXPECT_GT(check.largest.t, 2.8) << "of 3 s";
+  EXPECT_EQ(check.largest.where, "point P");
+}
+
 class MotionInDoubles : public testing::TestWithParam<const char*> {};
 
 TEST_P(MotionInDoubles, isRightWithAMargin) {

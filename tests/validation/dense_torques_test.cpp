@@ -83,6 +83,7 @@ TEST_F(Between, theNarrowestPulseSeenIsWhatItSays) {
   const double length = std::stod(found[1]), size = std::stod(found[2]);
   EXPECT_LT(length, 1e-3);
   EXPECT_LT(size, 1e-5);
+  EXPECT_NEAR(judge(right_).gap, length, 0.01 * length) << "the same as a number";
   SeededDraws dice(3);
   int missed = 0;
   for (int k = 0; k < 12; ++k) {

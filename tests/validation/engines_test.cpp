@@ -9,21 +9,29 @@
 #include <limits>
 
 #include "parts/engines/mujoco/mujoco_loop.h"
+#include "simbody/simbody_loop.h"
 #include "model/instants.h"
 #include "nocsolver/errors.h"
+#include "report/files/report.h"
+#include "report/text/result_facts.h"
+#include "report/text/terminal.h"
 #include "tests/support/matchers.h"
 #include "tests/support/numbers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/judges.h"
+#include "validation/evidence/injected_fault.h"
 #include "validation/findings/findings.h"
 #include "validation/samples/simbody_samples.h"
+#include "validation/validate.h"
 
 namespace ursula {
 namespace {
 
 constexpr int instants = 11;
 constexpr std::size_t twin = 0, maximal = 1, mujoco = 2;  ///< in the table
+
+std::string oddWords(const std::vector<EngineSample>& engines) { return inWords(oddOneOut(engines)); }
 
 /// These four together have friction, a load and Coulomb friction.
 const std::vector<std::string> machines = {"paper-helix", "random-2", "random-5", "proving-ground"};
@@ -55,7 +63,7 @@ TEST_P(Engines, ofExactTorquesAgree) {
       for (std::size_t j = 0; j < k; ++j) EXPECT_NE(engine.further[k], engine.further[j]);
     }
   }
-  EXPECT_EQ(oddOneOut(engines), mujocoAvailable() ? "none: 5 formulations agree" : "none: 4 formulations agree");
+  EXPECT_EQ(oddWords(engines), mujocoAvailable() ? "none: 5 formulations agree" : "none: 4 formulations agree");
 }
 
 TEST_P(Engines, seeATorqueThatIsOffByABillionthOfTheLargest) {
@@ -70,7 +78,7 @@ TEST_P(Engines, seeATorqueThatIsOffByABillionthOfTheLargest) {
     EXPECT_EQ(check.verdict, Verdict::fail) << check.name;
     EXPECT_NEAR(check.value, 1e-9 * largest_, check.limit) << check.name;
   }
-  EXPECT_EQ(oddOneOut(engines), "the torques under test");
+  EXPECT_EQ(oddWords(engines), "the torques under test");
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, Engines, testing::ValuesIn(machines), machineName);
@@ -120,19 +128,19 @@ const std::vector<Faulty> five_formulations = {
     {"MuJoCo", [](EngineSample& engine) -> Vector6d& { return *engine.further[mujoco]; }, "pass", "pass", "fail"}};
 
 TEST(OddOneOut, isNoneWhereAllAgree) {
-  EXPECT_EQ(oddOneOut(agreeing()), "none: 5 formulations agree");
-  EXPECT_EQ(oddOneOut(withoutMujoco(agreeing())), "none: 4 formulations agree");
+  EXPECT_EQ(oddWords(agreeing()), "none: 5 formulations agree");
+  EXPECT_EQ(oddWords(withoutMujoco(agreeing())), "none: 4 formulations agree");
 }
 
-TEST(OddOneOut, isUnknownWhereNothingWasCompared) { EXPECT_THAT(oddOneOut({}), HasSubstr("no instant")); }
+TEST(OddOneOut, isUnknownWhereNothingWasCompared) { EXPECT_THAT(oddWords({}), HasSubstr("no instant")); }
 
 TEST(OddOneOut, isNamedWhereOneLegOfOneEngineIsWrongAtOneInstant) {
   for (const Faulty& engine : five_formulations)
     for (int leg = 0; leg < leg_count; ++leg) {
       std::vector<EngineSample> engines = agreeing();
       engine.torques(engines[3])(leg) += 1e-8;
-      EXPECT_EQ(oddOneOut(engines), engine.name) << "leg " << leg + 1;
-      EXPECT_EQ(oddOneOut(withoutMujoco(engines)),
+      EXPECT_EQ(oddWords(engines), engine.name) << "leg " << leg + 1;
+      EXPECT_EQ(oddWords(withoutMujoco(engines)),
                 engine.name == std::string("MuJoCo") ? "none: 4 formulations agree" : engine.name);
     }
 }
@@ -142,7 +150,7 @@ TEST(OddOneOut, isNamedWhereOneLegOfItIsNoNumber) {
     for (int leg = 0; leg < leg_count; ++leg) {
       std::vector<EngineSample> engines = agreeing();
       engine.torques(engines[3])(leg) = nan;
-      EXPECT_EQ(oddOneOut(engines), engine.name) << "leg " << leg + 1;
+      EXPECT_EQ(oddWords(engines), engine.name) << "leg " << leg + 1;
     }
 }
 
@@ -151,15 +159,50 @@ TEST(OddOneOut, isNobodyWhereTwoAreWrong) {
     std::vector<EngineSample> engines = agreeing();
     (*engines[2].further[maximal])(1) += 1e-8;
     engines[2].subject(1) += other;
-    EXPECT_THAT(oddOneOut(engines), HasSubstr("not one alone"));
+    EXPECT_THAT(oddWords(engines), HasSubstr("not one alone"));
   }
 }
 
 TEST(OddOneOut, isNobodyWhereEachIsWrongAtAnInstantOfItsOwn) {
   std::vector<EngineSample> engines = agreeing();
-  (*engines[1].further[twin])(0) += 1e-8;
-  engines[4].simbody(0) += 1e-8;
-  EXPECT_THAT(oddOneOut(engines), HasSubstr("not one alone"));
+  (*engines[1].further[maximal])(0) += 1e-8;
+  (*engines[4].further[mujoco])(0) += 1e-8;
+  EXPECT_THAT(oddWords(engines), HasSubstr("not one alone"));
+}
+
+/// An error of Simbody as a whole is no error of the efforts.
+TEST(OddOneOut, isAnEngineWhoseTopologiesAreBothWrong) {
+  for (const std::size_t instant : {1U, 4U}) {  // alike, and each at an instant of its own
+    std::vector<EngineSample> engines = agreeing();
+    (*engines[1].further[twin])(0) += 1e-8;
+    engines[instant].simbody(0) += 1e-8;
+    for (const auto& all : {engines, withoutMujoco(engines)}) {
+      const OddOne odd = oddOneOut(all);
+      EXPECT_EQ(odd.engine(), "Simbody");
+      EXPECT_FALSE(odd.agree);
+      EXPECT_EQ(inWords(odd), "Simbody, both topologies");
+    }
+    for (EngineSample& engine : engines) engine.subject(0) += 1e-7;
+    EXPECT_THAT(oddWords(engines), HasSubstr("not one alone")) << "two are wrong";
+  }
+}
+
+/// The finding and the checks compare with the same limits.
+TEST(OddOneOut, isNamedFromOneLimitOn) {
+  for (const double limits : {0.5, 1.5, 2.0, 4.0, 6.0}) {
+    std::vector<EngineSample> engines = agreeing();
+    engines[2].subject(3) += limits * 1e-9;
+    EXPECT_EQ(others(judgeEngines(engines), limits < 1 ? Verdict::pass : Verdict::fail), "") << limits;
+    EXPECT_EQ(oddWords(engines), limits < 1 ? "none: 5 formulations agree" : "the torques under test") << limits;
+  }
+}
+
+TEST(OddOneOut, isEitherOfTwoWithWhichAllOthersAgree) {
+  std::vector<EngineSample> engines = agreeing();
+  engines[2].limits[maximal] = 0.9e-10;
+  const OddOne odd = oddOneOut(engines);
+  EXPECT_EQ(odd.engine(), "");
+  EXPECT_EQ(inWords(odd), "either the torques under test or maximal coordinates: the others agree with both");
 }
 
 TEST(JudgeEngines, failsWhereTheSubjectAndThatEngineDiffer) {
@@ -225,6 +268,66 @@ TEST(JudgeEngines, noInstantIsNoAgreement) {
   EXPECT_EQ(verdictOf(checks, "torque.twin"), "fail");
   EXPECT_EQ(verdictOf(checks, "torque.maximal"), "fail");
   EXPECT_EQ(verdictOf(checks, "torque.mujoco"), mujocoAvailable() ? "fail" : "(none)");
+}
+
+/// Simbody as a whole with a platform that is heavier, in both topologies.
+InjectedFault heavierInSimbody(const Scenario& natural, double factor) {
+  const auto heavier = [factor](const Scenario& scenario) {
+    ManipulatorParameters parameters = scenario.manipulator->parameters();
+    parameters.platform.mass *= factor;
+    Scenario out = scenario;
+    out.manipulator = std::make_shared<const Manipulator>(parameters);
+    return out;
+  };
+  InjectedFault fault;
+  fault.further[twin] = heavier;
+  const auto loop = std::make_shared<SimbodyLoop>(*heavier(natural).manipulator);
+  fault.sample = [loop](PointwiseSample& sample) {
+    loop->place(sample.motion);
+    sample.torques_simbody = loop->inverseDynamics();
+    compareTorques(sample);
+  };
+  return fault;
+}
+
+class WrongSimbody : public testing::Test {
+ protected:
+  ValidationResult judged(double factor, const Subject* subject = nullptr) const {
+    ValidationOptions quick{false, false, false};
+    quick.reference = referenceOf("paper-helix", 31);
+    quick.fault = std::make_shared<const InjectedFault>(heavierInSimbody(quick.reference->scenario, factor));
+    return subject == nullptr ? validate(scenario_, quick) : validate(scenario_, *subject, quick);
+  }
+  Scenario scenario_ = scenarioOf("paper-helix", 31);
+};
+
+TEST_F(WrongSimbody, isNamedAndTheEffortsAreNotBlamed) {
+  Subject users = torquesAlone(scenario_);
+  users.formulation = Formulation::external;
+  for (const Subject* subject : {static_cast<const Subject*>(nullptr), static_cast<const Subject*>(&users)}) {
+    const ValidationResult result = judged(1 + 1e-6, subject);
+    EXPECT_EQ(result.verdict, Verdict::fail);
+    EXPECT_EQ(verdictOf(result.checks, "torque.pointwise"), "fail");
+    EXPECT_EQ(verdictOf(result.checks, "torque.twin"), "fail");
+    EXPECT_EQ(result.odd_one.engine(), "Simbody");
+    EXPECT_TRUE(onlyOddEngineFails(result));
+    EXPECT_EQ(result.cause_words.cause, "") << "nothing is wrong with the efforts";
+    ASSERT_TRUE(result.deviation);
+    EXPECT_LT(result.deviation->relative(), 1e-13);
+    EXPECT_EQ(result.deviation->without, "Simbody");
+    EXPECT_GT(result.deviation->smallestRelative(), 1e-9) << "a tolerance has to cover Simbody's error";
+    EXPECT_THAT(deviationSentence(result), StartsWith("Against all formulations but Simbody's: Right to"));
+    EXPECT_THAT(report::sentence(result), StartsWith("The odd one out is Simbody, both topologies: the "));
+    EXPECT_THAT(report::validationText(result, false), Not(HasSubstr("are wrong")));
+  }
+}
+
+TEST_F(WrongSimbody, doesNotExcuseWrongEfforts) {
+  const Subject wrong = scaledTorques(torquesAlone(scenario_), 1 + 1e-5);
+  const ValidationResult result = judged(1 + 1e-6, &wrong);
+  EXPECT_EQ(result.odd_one.engine(), "");
+  EXPECT_FALSE(onlyOddEngineFails(result));
+  EXPECT_FALSE(onlyOddEngineFails(judged(1))) << "nothing fails";
 }
 
 class ReactionCheck : public testing::TestWithParam<std::string> {

@@ -46,6 +46,24 @@ TEST(LoadCheck, seesARowThatIsNotTheTables) {
   }
 }
 
+/// Beside a row that is off by little, which is beyond its limit of 0, the largest error lies between the rows.
+TEST(LoadCheck, keepsTheLargestErrorBesideTheLargestShare) {
+  const LoadHistory history(table());
+  const double row = table()[31].time;
+  const auto wrong = [&](double t) {
+    Wrench<double> wrench = history.at(t);
+    if (t == row) wrench.force.x() *= 1 + 1e-14;
+    if (t > table()[39].time && t < table()[40].time) wrench.moment.y() += 0.5;
+    return wrench;
+  };
+  const Check check = judgeLoadTable(table(), wrong);
+  EXPECT_EQ(check.verdict, Verdict::fail);
+  EXPECT_NEAR(check.largest.value, 0.5, 1e-9);
+  EXPECT_GT(check.largest.t, table()[39].time);
+  EXPECT_EQ(check.largest.where, "m_y");
+  EXPECT_LT(check.value, 0.1) << "the largest share is the row's: nothing is shown";
+}
+
 class WrongCurve : public testing::TestWithParam<const char*> {};
 
 /// The load is wrong between two rows and right at the rows.

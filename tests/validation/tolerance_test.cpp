@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "report/files/report.h"
 #include "tests/support/matchers.h"
 #include "tests/validation/checks.h"
@@ -111,6 +113,41 @@ TEST(EffortDeviation, keepsWhatIsNoNumberInAnyOrder) {
   EXPECT_EQ(with(2, 3).largest, 3);
 }
 
+/// The headline's two numbers are of one check.
+TEST(EffortDeviation, saysHowLargeAndHowLongAnErrorIsSeen) {
+  const Scenario scenario = scenarioOf("paper-helix");
+  Evidence evidence;
+  evidence.given = evidence.scenario = &scenario;
+  evidence.samples.resize(3);
+  for (std::size_t k = 0; k < 3; ++k) evidence.samples[k].motion.t = std::pow(static_cast<double>(k), 2) / 100;
+  std::vector<Check> checks = {judged("torque.pointwise", 1, 1, "N m", "", "")};
+  checks[0].missed = 1e-13;
+  EXPECT_EQ(effortDeviation(evidence, checks)->seen, 1e-13);
+  EXPECT_DOUBLE_EQ(effortDeviation(evidence, checks)->seen_for, 0.03) << "the widest gap of the samples";
+  checks.push_back(judged("torque.between", 1, 1, "N m", "", ""));
+  checks[1].missed = 3e-13, checks[1].gap = 5e-4;
+  EXPECT_EQ(effortDeviation(evidence, checks)->seen, 3e-13);
+  EXPECT_EQ(effortDeviation(evidence, checks)->seen_for, 5e-4);
+}
+
+/// Efforts are expected from the other formulations, and a tolerance has to cover all.
+TEST(EffortDeviation, leavesOutTheOddEngine) {
+  const Scenario scenario = scenarioOf("paper-helix");
+  Evidence evidence;
+  evidence.given = evidence.scenario = &scenario;
+  evidence.samples.resize(1);
+  std::vector<Check> checks;
+  for (const auto& [check, error] : {std::pair("torque.pointwise", 3.0), {"torque.twin", 4.0}, {"torque.maximal", 0.5}})
+    checks.push_back(judged(check, error, 1, "N m", "", ""));
+  const OddOne simbody{5, false, {{"Simbody", {}}}}, either{5, false, {{"Simbody", {}}, {"", {}}}};
+  const EffortDeviation found = *effortDeviation(evidence, checks, simbody);
+  EXPECT_EQ(found.largest, 0.5);
+  EXPECT_EQ(found.from_without, 4);
+  EXPECT_GE(found.smallestRelative() * found.largest_effort, 4);
+  EXPECT_EQ(effortDeviation(evidence, checks)->largest, 4);
+  EXPECT_EQ(effortDeviation(evidence, checks, either)->largest, 4);
+}
+
 TEST(Tolerance, aReplayThatAcceptanceNamesIsJudged) {
   Scenario scenario = scenarioOf("paper-helix");
   scenario.tolerance = EffortTolerance{1e-3, 0};
@@ -148,6 +185,59 @@ TEST(Tolerance, judgesAFileOfFewDigits) {
   EXPECT_EQ(tolerant.limits, LimitBy::user);
   scenario.tolerance = EffortTolerance{1e-6, 0};
   EXPECT_EQ(judged().verdict, Verdict::fail) << "four digits are not right to a millionth";
+}
+
+/// A file whose motor with the largest effort is off by 5 units of its fourth digit, and the one with the smallest by 9
+/// of its own, which is a larger share of that motor's limit.
+TEST(Tolerance, isOfTheLargestErrorNotOfTheLargestShare) {
+  Scenario scenario = scenarioOf("paper-helix");
+  const TorqueTable right = exactTorques(scenario, 301);
+  const auto unit = [](double x) { return std::pow(10, std::floor(std::log10(std::abs(x))) - 3); };
+  const auto off = [&](double of_largest, const char* format) {
+    return right
+        .changed([&](std::size_t, Vector6d& tau) {
+          Eigen::Index most = 0, least = 0;
+          tau.cwiseAbs().maxCoeff(&most), tau.cwiseAbs().minCoeff(&least);
+          const Vector6d was = tau;
+          tau(most) += of_largest * unit(was(most));
+          tau(least) += 9 * unit(was(least));
+        })
+        .printed(format);
+  };
+  const auto largestOf = [&right](const TorqueFile& file) {
+    double out = 0;
+    for (std::size_t k = 0; k < file.rows(); ++k)
+      out = std::max(out, (file.torques[k] - right.torques[k]).cwiseAbs().maxCoeff());
+    return out;
+  };
+  const TorqueFile file = off(5, "{:.4g}");
+  scenario.tolerance = EffortTolerance{3.83e-4, 0};
+  const ValidationResult result = validateExternal(scenario, file);
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  ASSERT_TRUE(result.deviation);
+  const double largest = largestOf(file);
+  EXPECT_GT(largest, 5 * result.deviation->allowed);
+  EXPECT_NEAR(result.deviation->largest, largest, 1e-6);
+  for (const char* check : {"torque.pointwise", "torque.against_noc"})
+    EXPECT_NEAR(findCheck(result.checks, check)->largest.value, largest, 1e-6) << check;
+  EXPECT_EQ(validateExternal(scenario, off(0, "{:.4g}")).verdict, Verdict::pass) << "the control";
+}
+
+/// Each motor has its own limit, also in the time series.
+TEST(Tolerance, theSmallestForAFileOfFewDigitsPasses) {
+  Scenario scenario = scenarioOf("paper-helix");
+  const TorqueFile file =
+      exactTorques(scenario, 31).changed([](std::size_t, Vector6d& tau) { tau *= 1 + 1e-4; }).printed("{:.5g}");
+  const ValidationResult result = validateExternal(scenario, file);
+  const double smallest = result.deviation->smallestRelative();
+  EXPECT_GT(smallest, 1e-4);
+  scenario.tolerance = EffortTolerance{smallest, 0};
+  EXPECT_EQ(validateExternal(scenario, file).verdict, Verdict::pass);
+  scenario.tolerance = EffortTolerance{0.999 * smallest, 0};
+  EXPECT_EQ(validateExternal(scenario, file).verdict, Verdict::fail);
+  const std::vector<double>&one = *result.timeseries.find("limit_tau_1_Nm"),
+        &three = *result.timeseries.find("limit_tau_3_Nm");
+  EXPECT_NE(one, three);
 }
 
 /// The scale is the largest effort of the motion, not of the file's instants.
@@ -209,6 +299,9 @@ TEST(Sentence, saysWhatWouldHaveBeenSeen) {
   EXPECT_THAT(deviationSentence(result), Not(HasSubstr("would have been seen")));
   result.deviation->seen = 3e-13;
   EXPECT_THAT(deviationSentence(result), HasSubstr("An error of 3e-13 of the largest torque would have been seen."));
+  result.deviation->seen_for = 5.2e-4;
+  EXPECT_THAT(deviationSentence(result),
+              HasSubstr("An error of 3e-13 of the largest torque that lasts longer than 520 µs would have been seen."));
 }
 
 TEST(Sentence, saysHowRightWhereAndWhatFollows) {

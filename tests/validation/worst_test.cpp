@@ -105,6 +105,26 @@ TEST(WorstShare, nothingOfNothingIsWithin) {
   EXPECT_TRUE(worstOf({{0, 0}, {1e-300, 0}}).beyond());
 }
 
+TEST(WorstShare, addsEachMotorWithItsOwnLimit) {
+  Vector6d errors, limits;
+  errors << 5, -9, 0, 0, 0, 0.5;
+  limits << 100, 100, 1, 1, 1, 1;
+  WorstShare found;
+  found.addEach(errors, limits, 2);
+  EXPECT_EQ(found.where, 5) << "the largest share";
+  EXPECT_EQ(found.largest, 9);
+  EXPECT_EQ(found.largest_where, 1);
+  EXPECT_EQ(found.widest_limit, 100);
+}
+
+TEST(Exceeds, keepsNaN) {
+  EXPECT_TRUE(exceeds(2, 1));
+  EXPECT_FALSE(exceeds(1, 1));
+  EXPECT_TRUE(exceeds(nan, 1));
+  EXPECT_FALSE(exceeds(1, nan));
+  EXPECT_FALSE(exceeds(nan, nan)) << "the first of several";
+}
+
 TEST(Larger, isNaNWhereEitherIs) {
   EXPECT_EQ(larger(1, 2), 2);
   EXPECT_EQ(larger(2, 1), 2);

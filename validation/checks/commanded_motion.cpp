@@ -221,16 +221,18 @@ Deviations deviationsOf(const Trajectory& trajectory, double length, const Hidde
 
 Check judgedAs(const std::string& name, const WorstShare& shown, const std::string& unit, const std::string& what,
                int instants, bool exact) {
-  constexpr std::array<const char*, 3> parts{"point P", "orientation, times the machine's length",
-                                             "Q'Q - 1, times the machine's length"};
+  static constexpr std::array<const char*, 3> parts{"point P", "orientation, times the machine's length",
+                                                    "Q'Q - 1, times the machine's length"};
   if (!shown.any) return notMade(name, unit, "no instant was compared");
   const std::string doubles =
       exact ? "" : "; 250 eps over the step, to the order of the derivative, and twice what halving the step changes";
-  return judged(
+  const auto part = [](int where) { return parts[static_cast<std::size_t>(where)]; };
+  Check check = judged(
       name, shown.value, shown.limit, unit,
       "25 eps x the sum of its terms in powers of (t - start)/h, and the effect of an angle's rounding" + doubles,
-      fmt::format("{}, at {} instants; shown for t = {:.6g} s, {}", what, instants, shown.t,
-                  parts[static_cast<std::size_t>(shown.where)]));
+      fmt::format("{}, at {} instants; shown for t = {:.6g} s, {}", what, instants, shown.t, part(shown.where)));
+  check.largest = {shown.largest, shown.largest_t, part(shown.largest_where)};
+  return check;
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <functional>
+#include <set>
+#include <utility>
 
 #include "validation/limits/further_engines.h"
+#include "model/check_catalogue.h"
 #include "validation/checks/judges.h"
 #include "validation/limits/conditioning.h"
 #include "validation/limits/rounding_profile.h"
@@ -25,9 +28,7 @@ WorstShare compareEngines(const std::vector<EngineSample>& samples, const PairOf
   WorstShare worst;
   for (const EngineSample& sample : samples) {
     const Pair pair = pairOf(sample);
-    Eigen::Index leg = 0;
-    const double distance = (*pair.a - *pair.b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg);
-    worst.add(distance, pair.limit, sample.t, static_cast<int>(leg));
+    worst.addEach(*pair.a - *pair.b, Vector6d::Constant(pair.limit), sample.t);
   }
   return worst;
 }
@@ -51,19 +52,46 @@ Check judgeEngine(const std::vector<EngineSample>& samples, std::size_t k, const
        causeOfRounding(conditions, worst.widest_t)});
 }
 
-/// A formulation and its name for oddOneOut.
+/// The torques of one formulation, and their limit against the subject's.
 struct Named {
-  const char* name;
+  std::string engine, name;  ///< as in Voice
   std::function<const Vector6d*(const EngineSample&)> torques;
+  std::function<double(const EngineSample&)> limit;
 };
 
+/// Finds the voices that take part in each contradiction. `agree` compares two formulations by their places.
+OddOne oddOneOf(const std::vector<Named>& all, const std::function<bool(std::size_t, std::size_t)>& agree) {
+  std::set<std::pair<std::size_t, std::size_t>> contradictions;
+  for (std::size_t j = 0; j < all.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i)
+      if (!agree(i, j)) contradictions.insert({{i, j}, {j, i}});
+  OddOne out{static_cast<int>(all.size()), contradictions.empty()};
+  for (const Named& each : all) {
+    const auto isOf = [&](std::size_t k) { return all[k].engine == each.engine; };
+    const auto takesPart = [&isOf](const auto& pair) { return isOf(pair.first) || isOf(pair.second); };
+    const bool is_known = !out.odd.empty() && out.odd.back().engine == each.engine;
+    if (out.agree || is_known || !std::all_of(contradictions.begin(), contradictions.end(), takesPart)) continue;
+    Voice voice{each.engine, {}};
+    for (const auto& [one, other] : contradictions)
+      if (isOf(one) && !isOf(other) && (voice.formulations.empty() || voice.formulations.back() != all[one].name))
+        voice.formulations.push_back(all[one].name);
+    out.odd.push_back(voice);
+  }
+  return out;
+}
+
+std::string engineOf(const char* check) { return checkRow(check)->engine; }
+
 std::vector<Named> enginesOf(const EngineSample& first) {
-  std::vector<Named> engines{{"the torques under test", [](const EngineSample& sample) { return &sample.subject; }},
-                             {"Simbody, free platform", [](const EngineSample& sample) { return &sample.simbody; }}};
+  using Sample = EngineSample;
+  std::vector<Named> engines{{"", "", [](const Sample& s) { return &s.subject; }, [](const Sample&) { return 0.0; }},
+                             {engineOf("torque.pointwise"), "Simbody, free platform",
+                              [](const Sample& s) { return &s.simbody; }, [](const Sample& s) { return s.limit; }}};
   for (std::size_t k = 0; k < furtherEngines().size(); ++k)
     if (first.further[k])
-      engines.push_back(
-          {furtherEngines()[k].name, [k](const EngineSample& sample) { return given(sample.further[k]); }});
+      engines.push_back({engineOf(furtherEngines()[k].check), furtherEngines()[k].name,
+                         [k](const Sample& s) { return given(s.further[k]); },
+                         [k](const Sample& s) { return s.limits[k]; }});
   return engines;
 }
 
@@ -78,39 +106,42 @@ std::vector<Check> judgeEngines(const std::vector<EngineSample>& samples, const 
   return checks;
 }
 
-std::string oddOneOut(const std::vector<EngineSample>& samples) {
-  if (samples.empty()) return "unknown: no instant was compared";
+OddOne oddOneOut(const std::vector<EngineSample>& samples) {
+  if (samples.empty()) return {};
   const std::vector<Named> engines = enginesOf(samples.front());
-  const auto agree = [&samples](const Named& a, const Named& b) {
-    const auto pair = [&](const EngineSample& sample) {
-      return Pair{a.torques(sample), b.torques(sample), sample.limit};
+  return oddOneOf(engines, [&](std::size_t i, std::size_t j) {
+    const Named &a = engines[i], &b = engines[j];
+    const auto pairOf = [&](const EngineSample& sample) {
+      return Pair{a.torques(sample), b.torques(sample), a.limit(sample) + b.limit(sample)};
     };
-    return !compareEngines(samples, pair).beyond();
-  };
-  for (const Named& odd : engines) {
-    bool others_agree = true, alone = true;
-    for (const Named& a : engines)
-      for (const Named& b : engines) {
-        if (&a == &b) continue;
-        const bool pair_agrees = agree(a, b);
-        if (&a != &odd && &b != &odd) others_agree &= pair_agrees;
-        if (&a == &odd) alone &= !pair_agrees;
-      }
-    if (others_agree && alone) return odd.name;
-  }
-  const bool all =
-      std::all_of(engines.begin(), engines.end(), [&](const Named& engine) { return agree(engines[0], engine); });
-  return all ? fmt::format("none: {} formulations agree", engines.size())
-             : "not one alone: the formulations disagree in more than one way";
+    return !compareEngines(samples, pairOf).beyond();
+  });
+}
+
+OddOne oddOneOut(const ExternalTorques& torques) {
+  if (torques.samples.empty()) return {};
+  const std::vector<Named> all = {{"", "", {}, {}},
+                                  {engineOf("torque.pointwise"), "Simbody, free platform", {}, {}},
+                                  {engineOf("torque.against_noc"), "the NOC", {}, {}}};
+  return oddOneOf(all, [&torques](std::size_t i, std::size_t j) {
+    WorstShare worst;
+    for (std::size_t k = 0; k < torques.samples.size(); ++k) {
+      const PointwiseSample& sample = torques.samples[k];
+      const Vector6d* const of[] = {&sample.torques, &sample.torques_simbody, &torques.noc[k]};
+      const Vector6d rounding = Vector6d::Constant(sample.conditioning.torqueRounding());
+      worst.addEach(*of[i] - *of[j], i == 0 ? sample.torqueLimits() : rounding, sample.motion.t);
+    }
+    return !worst.beyond();
+  });
 }
 
 Check judgeAgainstNoc(const ExternalTorques& torques, const Units& units) {
   WorstShare worst;
   CheckedQuantity quantity{"torque.against_noc", units.efforts.unit};
-  for (std::size_t k = 0; k < torques.against_noc.size(); ++k) {
-    const Deviation& each = torques.against_noc[k];
-    worst.add(each.error, each.limit, torques.file.t[k], each.where);
-    quantity.given = std::max(quantity.given, each.given);
+  for (std::size_t k = 0; k < torques.noc.size(); ++k) {
+    const PointwiseSample& sample = torques.samples[k];
+    worst.addEach(sample.torques - torques.noc[k], sample.torqueLimits(), sample.motion.t);
+    quantity.given = std::max(quantity.given, sample.torques_given.maxCoeff());
   }
   quantity.size = largestTorque(torques.samples);
   if (!worst.any) return notMade(quantity.name, quantity.unit, "no instant was compared");

@@ -64,8 +64,10 @@ std::vector<Check> judgeJointsAndTorques(const std::vector<PointwiseSample>& sam
 std::vector<Check> judgeEngines(const std::vector<EngineSample>& samples, const Units& units = {},
                                 const std::vector<PointwiseSample>& conditions = {});
 
-/// Returns in words which formulation disagrees with all others; "none" if all agree.
-std::string oddOneOut(const std::vector<EngineSample>& samples);
+/// Finds which formulation contradicts the others; each pair has its own limit.
+OddOne oddOneOut(const std::vector<EngineSample>& samples);
+/// The same for torques of a file, Simbody's and the NOC's.
+OddOne oddOneOut(const ExternalTorques& torques);
 
 /// `torque.between` compares the subject's torques with another formulation at thousands of instants between the other
 /// checks'. The NOC is compared with Simbody, another solver with the NOC. Instants are multiples of the

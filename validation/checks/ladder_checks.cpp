@@ -43,7 +43,7 @@ const Rung* firstThat(const std::vector<Rung>& rungs, const std::function<bool(c
   return found == rungs.end() ? nullptr : &*found;
 }
 
-Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, double position_scale) {
+Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, double position_scale, const Units& units) {
   const Rung& coarse = ladder.rungs[ladder.rungs.size() - 2];
   const Rung& fine = ladder.rungs.back();
   std::string orders;
@@ -59,7 +59,7 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
   worst.add(fine.distance,
             std::max({coarse.distance * share, roundingBound(finest, position_scale, finest.window.end()),
                       harmless * useful_replay_limit * finest.window.length}),
-            finest.window.end());
+            finest.window.end() * units.time);
   Check check = judgedIfUseful(
       {"integration.ladder", "m", finest.window.length}, worst,
       fmt::format("{:.3g} of what it is at a tolerance of {:g}, which takes {} steps of {}; or what rounding may make "
@@ -92,7 +92,7 @@ Check judgeSecondEnd(const Ladder& ladder, const WindowedReplay& finest, double 
   WorstShare worst;
   worst.add(second.distance,
             second_safety * ladder.second_difference + replayLimit(finest, position_scale, ladder.second_end),
-            ladder.second_end);
+            ladder.second_end * units.time);
   return judgedIfUseful(
       {second_check, "m", finest.window.length}, worst,
       fmt::format("{:g} times what longer steps, at ten times the accuracy, change of it, and the limit of "
@@ -134,7 +134,7 @@ std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& fines
   if (const Rung* rung = firstThat(ladder.rungs, [](const Rung& each) { return !each.gave_up.empty(); }))
     return notClimbed(rung->too_long,
                       fmt::format("{} at {:g} gave up: {}", name(rung->integrator), rung->tolerance, rung->gave_up));
-  return {judgeConvergence(ladder, finest, position_scale), judgeSecond(ladder, finest, position_scale, units)};
+  return {judgeConvergence(ladder, finest, position_scale, units), judgeSecond(ladder, finest, position_scale, units)};
 }
 
 }  // namespace ursula

@@ -74,8 +74,7 @@ const char* componentName(int k) {
 void compareRows(const std::vector<TimedWrench>& rows, const std::function<Wrench<double>(double)>& at,
                  WorstShare& shown) {
   const auto compare = [&](double t, const TimedWrench& row) {
-    const Vector6d error = stacked(at(t)) - stacked(row.wrench);
-    for (int k = 0; k < 6; ++k) shown.add(std::abs(error(k)), 0, t, k);
+    shown.addEach(stacked(at(t)) - stacked(row.wrench), Vector6d::Zero(), t);
   };
   for (const TimedWrench& row : rows) compare(row.time, row);
   const double beyond = rows.back().time - rows.front().time;
@@ -94,6 +93,13 @@ void compareWithin(const Table& table, std::size_t i, double s, double t, const 
   }
 }
 
+Check judgedAs(const WorstShare& shown, const std::string& basis, const std::string& what) {
+  Check check = judged("motion.load", shown.value, shown.limit, "N, N m", basis,
+                       fmt::format("{}; shown for t = {:.6g} s, {}", what, shown.t, componentName(shown.where)));
+  check.largest = {shown.largest, shown.largest_t, componentName(shown.largest_where)};
+  return check;
+}
+
 }  // namespace
 
 Check judgeLoadTable(const std::vector<TimedWrench>& rows, const std::function<Wrench<double>(double)>& at) {
@@ -110,24 +116,21 @@ Check judgeLoadTable(const std::vector<TimedWrench>& rows, const std::function<W
       const double s = static_cast<double>((Real50(t) - from) / (Real50(to) - from));
       compareWithin(table, i, s, t, stacked(at(t)), shown);
     }
-  return judged("motion.load", shown.value, shown.limit, "N, N m",
-                "0 at the rows and beyond; between them, 25 eps x the sum of the terms in powers of (t - t_0)/h",
-                fmt::format("the load must meet its {} rows, be constant beyond them, and between them be the quintic "
-                            "with harmonic-mean slopes within both rows' range; shown for t = {:.6g} s, {}",
-                            rows.size(), shown.t, componentName(shown.where)));
+  return judgedAs(
+      shown, "0 at the rows and beyond; between them, 25 eps x the sum of the terms in powers of (t - t_0)/h",
+      fmt::format("the load must meet its {} rows, be constant beyond them, and between them be the quintic "
+                  "with harmonic-mean slopes within both rows' range",
+                  rows.size()));
 }
 
 Check judgeLoad(const Load& load, double duration) {
   if (load.history) return judgeLoadTable(load.history->rows(), [&](double t) { return load.at(t); });
   const Vector6d constant = stacked({load.force, load.moment});
   WorstShare shown;
-  for (const double t : {0.0, 0.3 * duration, duration}) {
-    const Vector6d error = stacked(load.at(t)) - constant;
-    for (int k = 0; k < 6; ++k) shown.add(std::abs(error(k)), 0, t, k);
-  }
-  return judged("motion.load", shown.value, shown.limit, "N, N m", "the load is constant: nothing is rounded",
-                fmt::format("the load against the force and moment given, at 3 instants; shown for t = {:.6g} s, {}",
-                            shown.t, componentName(shown.where)));
+  for (const double t : {0.0, 0.3 * duration, duration})
+    shown.addEach(stacked(load.at(t)) - constant, Vector6d::Zero(), t);
+  return judgedAs(shown, "the load is constant: nothing is rounded",
+                  "the load against the force and moment given, at 3 instants");
 }
 
 }  // namespace ursula

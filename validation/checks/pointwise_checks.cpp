@@ -48,9 +48,12 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quanti
   for (const PointwiseSample& sample : samples) {
     if (!sample.refused.empty()) return notMade(quantity.name, quantity.unit, "no answer: " + sample.refused);
     const Deviation& deviation = sample.*quantity.deviation;
-    worst.add(deviation.error, deviation.limit, sample.motion.t, deviation.where);
+    if (is_effort)
+      worst.addEach(sample.torques - sample.torques_simbody, sample.torqueLimits(), sample.motion.t);
+    else
+      worst.add(deviation.error, deviation.limit, sample.motion.t, deviation.where);
     of.size = std::max(of.size, quantity.size(sample));
-    of.given = std::max(of.given, deviation.given);
+    of.given = std::max(of.given, is_effort ? sample.torques_given.maxCoeff() : deviation.given);
   }
   if (!worst.any) return notMade(quantity.name, quantity.unit, "no instant was compared");
   const Conditioning& c = samples[indexFrom(samples, worst.shown(of.useful()).t)].conditioning;
@@ -176,12 +179,6 @@ std::vector<Check> judgeComplement(const std::vector<ComplementSample>& samples,
   return {product, ranks};
 }
 
-namespace {
-
-double largest(const LegReactions& a, double length) { return distance(a, LegReactions{}, length); }
-
-}  // namespace
-
 Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::vector<PointwiseSample>& samples,
                      const RoundingProfile& profile, const Units& units) {
   RemeasuredLimits look(profile);
@@ -192,7 +189,7 @@ Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::ve
     const Conditioning& at = sample.conditioning;
     for (std::size_t leg = 0; leg < leg_count; ++leg) {
       const LegReactions& recovered = reactions.at(k).recovered[leg];
-      size = std::max(size, largest(recovered, at.length));
+      size = std::max(size, distance(recovered, LegReactions{}, at.length));
       const double error = reactions[k].errors[leg];
       worst.add(error, look.limit(error, at, Rounded::reactions, sample.motion), sample.motion.t,
                 static_cast<int>(leg));

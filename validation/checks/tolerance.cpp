@@ -8,6 +8,7 @@
 #include "model/instants.h"
 #include "validation/checks/judges.h"
 #include "validation/verdict/effort_words.h"
+#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 
@@ -68,6 +69,14 @@ double driftOf(const Evidence& evidence, double size) {
   });
 }
 
+/// The longest time between two samples, s.
+double widestGap(const Evidence& evidence) {
+  double gap = 0;
+  for (std::size_t k = 1; k < evidence.samples.size(); ++k)
+    gap = std::max(gap, evidence.samples[k].motion.t - evidence.samples[k - 1].motion.t);
+  return gap * evidence.units().time;
+}
+
 /// The largest effort of the whole motion, in the scenario's units; it is the same for all subjects and instants.
 double largestEffort(const Scenario& scenario) {
   constexpr int instants = 2001;
@@ -80,20 +89,30 @@ double largestEffort(const Scenario& scenario) {
 
 }  // namespace
 
-std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const std::vector<Check>& checks) {
+std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const std::vector<Check>& checks,
+                                               const OddOne& odd_one) {
   const Units& units = evidence.units();
   EffortDeviation out;
   bool any = false;
   for (const Check& check : checks) {
     if (!isOfTorques(check) || check.reason == Reason::not_made) continue;
     if (check.verdict == Verdict::inconclusive && std::isnan(check.largest.value)) continue;  // nothing was compared
+    if (isOfEngine(check, odd_one.engine())) {
+      out.without = odd_one.engine();
+      out.from_without = larger(out.from_without, check.largest.value);
+      continue;
+    }
     if (!std::isnan(check.missed) && !(out.seen <= check.missed)) out.seen = check.missed;
-    if (any && !(check.largest.value > out.largest) && !std::isnan(check.largest.value)) continue;
+    if (any && !exceeds(check.largest.value, out.largest)) continue;
     out.largest = check.largest.value;
     out.t = check.largest.t;
     out.where = check.largest.where;
     any = true;
   }
+  if (evidence.external == nullptr) out.seen_for = widestGap(evidence);
+  // Two numbers of one check: what torque.between sees, it sees between the samples.
+  if (const Check* between = findCheck(checks, "torque.between"); between != nullptr && std::isfinite(between->gap))
+    out.seen = between->missed, out.seen_for = between->gap;
   if (!any || evidence.samples.empty() || !evidence.answered()) return std::nullopt;
   out.unit = units.efforts.unit;
   out.largest_effort = largestEffort(*evidence.scenario) * units.effort();

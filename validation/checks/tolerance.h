@@ -19,8 +19,9 @@ void judgeByUser(const std::vector<AcceptanceLimit>& acceptance, ValidationResul
 void judgeByUser(double limit, const std::string& whose, Check& check);
 
 /// Returns the largest deviation of the efforts over all checks of torques, judged or not, and its effect on the
-/// motion. `checks` are in SI. Returns nullopt if nothing was compared.
-std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const std::vector<Check>& checks);
+/// motion. `checks` are in SI. Checks against the odd engine stand apart. Returns nullopt if nothing was compared.
+std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const std::vector<Check>& checks,
+                                               const OddOne& odd_one = {});
 
 /// Applies the user's tolerance, if the scenario has one, to the largest value of each check of torques. The effect of
 /// such errors on accelerations and replays is reported but not judged, unless [acceptance] names it. `between` is the

@@ -38,7 +38,8 @@ std::vector<double> curvedInstants(const std::vector<Answered>& instants) {
   for (std::size_t k = 1; k + 1 < instants.size(); ++k) {
     const Answered &a = instants[k - 1], &b = instants[k], &c = instants[k + 1];
     const double share = (b.t - a.t) / (c.t - a.t);
-    const double bend = (b.torques - (1 - share) * a.torques - share * c.torques).cwiseAbs().maxCoeff();
+    const double bend =
+        (b.torques - (1 - share) * a.torques - share * c.torques).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     curved.emplace_back(std::isnan(bend) ? std::numeric_limits<double>::infinity() : bend, (b.t + c.t) / 2);
   }
   const std::size_t count = curved.size() / 4;
@@ -135,11 +136,13 @@ Check checkOf(const Comparison& comparison, const std::string& what, double gap,
               const std::vector<PointwiseSample>& samples, const Units& units) {
   const WorstShare& worst = comparison.worst();
   const CheckedQuantity quantity{check_name, units.efforts.unit, comparison.size()};
-  return judgedShown(
+  Check check = judgedShown(
       quantity, worst, units,
       {"as for torque.pointwise, at each instant", what, motorsOf(units), causeOfRounding(samples, worst.widest_t),
        fmt::format("; a pulse longer than {:.2g} s and larger than {:.2g} {} would have been seen", gap * units.time,
                    std::min(worst.widest_limit, quantity.useful()) * units.effort(), units.efforts.unit)});
+  check.gap = gap * units.time;
+  return check;
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace ursula {
 
 double ExternalTorques::largestPrecision() const {
   double largest = 0;
-  for (const Vector6d& row : precision) largest = std::max(largest, row.maxCoeff());
+  for (const PointwiseSample& sample : samples) largest = std::max(largest, sample.torques_given.maxCoeff());
   return largest;
 }
 
@@ -28,21 +28,6 @@ std::string ExternalTorques::precisionInWords(const Units& units) const {
 }
 
 namespace {
-
-/// The deviation of the leg that exceeds its own limit most, or is nearest to it.
-Deviation deviationOf(const Vector6d& torques, const Vector6d& exact, const Vector6d& precision, double rounding) {
-  Deviation out;
-  double worst = -1;
-  for (int i = 0; i < motor_count; ++i) {
-    const double error = std::abs(torques(i) - exact(i)), limit = rounding + precision(i);
-    const double ratio = error / limit;
-    if (ratio <= worst) continue;
-    worst = ratio;
-    out = {error, limit, i, precision(i)};
-    if (std::isnan(ratio)) break;
-  }
-  return out;
-}
 
 /// The change of the torques if the instant is off by its last digit.
 Vector6d changeWithin(const std::function<Vector6d(double)>& noc, double t, double precision, double duration) {
@@ -72,15 +57,11 @@ ExternalTorques runExternal(const Scenario& scenario, const TorqueFile& file, co
     deadline.require();
     const double t = out.file.t[k];
     PointwiseSample& sample = out.samples[k];
-    const Vector6d precision =
-        out.file.torque_precision[k] + changeWithin(noc, t, out.file.time_precision[k], duration);
-    const double rounding = sample.conditioning.torqueRounding();
     out.noc.push_back(noc(t));
-    out.precision.push_back(precision);
-    sample.torque = deviationOf(sample.torques, sample.torques_simbody, precision, rounding);
-    sample.acceleration.given = sample.conditioning.response * precision.norm();
+    sample.torques_given = out.file.torque_precision[k] + changeWithin(noc, t, out.file.time_precision[k], duration);
+    compareTorques(sample);
+    sample.acceleration.given = sample.conditioning.response * sample.torques_given.norm();
     sample.acceleration.limit += sample.acceleration.given;
-    out.against_noc.push_back(deviationOf(sample.torques, out.noc.back(), precision, rounding));
   }
   return out;
 }
@@ -104,7 +85,7 @@ class SplineLimit {
     const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
     interpolation_ = interpolationErrors(t_, [&](double t) { return noc.torques(scenario.trajectory->at(t)); });
     std::vector<double> norms;
-    for (const Vector6d& row : torques.precision) norms.push_back(row.norm());
+    for (const PointwiseSample& sample : torques.samples) norms.push_back(sample.torques_given.norm());
     digits_ = carriedErrors(t_, norms);
   }
 

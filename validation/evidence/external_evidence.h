@@ -16,16 +16,15 @@
 
 namespace ursula {
 
-/// External torques at their own instants, with the uncertainty of each.
+/// External torques at their own instants.
 struct ExternalTorques {
   TorqueFile file;            ///< every instant lies within the motion
   std::vector<Vector6d> noc;  ///< of the NOC, N·m
-  std::vector<Vector6d>
-      precision;  ///< uncertainty of the printed numbers: the torque's, and the instant's times τ̇, N·m
-  std::vector<PointwiseSample> samples;  ///< against Simbody, with `precision` in the limits
-  std::vector<Deviation> against_noc;    ///< N·m
+  /// Against Simbody. Their `torques_given` is the uncertainty of the printed numbers: the torque's, and the instant's
+  /// times τ̇.
+  std::vector<PointwiseSample> samples;
 
-  /// The largest entry of `precision`, N·m.
+  /// The largest entry of `torques_given`, N·m.
   double largestPrecision() const;
   /// The contribution of the printed digits to limits, in words.
   std::string precisionInWords(const Units& units) const;

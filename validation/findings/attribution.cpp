@@ -10,6 +10,7 @@
 
 #include "base/deadline.h"
 #include "base/start_threads.h"
+#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
@@ -24,7 +25,7 @@ const WindowedReplay* worstWindow(const std::vector<WindowedReplay>& windows) {
   for (const WindowedReplay& each : windows) {
     if (each.replay.steps.size() < 2) continue;
     const double error = each.replay.steps.back().position_error.norm();
-    if (error > largest) worst = &each, largest = error;
+    if (exceeds(error, largest)) worst = &each, largest = error;
   }
   return worst;
 }

@@ -31,7 +31,7 @@ void addReplayed(const std::vector<WindowedReplay>& windows, const Units& units,
   for (const WindowedReplay& window : windows) {
     evaluations += window.replay.evaluations;
     steps += window.replay.steps.size() - (window.replay.steps.empty() ? 0 : 1);
-    for (double value : window.window.growth) growth = std::max(growth, value);
+    for (double value : window.window.growth) growth = larger(growth, value);
   }
   const auto add = [&result](const char* what, double value, const char* unit = "") {
     result.findings.push_back({what, "", value, none, unit});

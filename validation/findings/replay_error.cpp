@@ -7,6 +7,8 @@
 namespace ursula {
 namespace {
 
+const std::string torques = "torques";
+
 /// Converts to SI.
 ReplayError replayErrorOf(const ErrorBudget& budget, const Units& units) {
   const auto source = [&units](const ErrorShare& share) {
@@ -26,14 +28,14 @@ ReplayError replayErrorOf(const ErrorBudget& budget, const Units& units) {
   return out;
 }
 
-Curve curveOf(const ErrorBudget& budget, const Units& units, ErrorSource rest) {
+Curve curveOf(const ErrorBudget& budget, const Units& units, ErrorSource rest, const std::string& model) {
   const auto inSi = [](std::vector<double> values, double unit) {
     for (double& value : values) value *= unit;
     return values;
   };
   Curve out = {Curve::About::sources, "Sources of the replay's error", "t", true,
                inSi(budget.along.front(), units.time)};
-  const char* const labels[] = {"observed", "rounding", "integration", "loop closure", "torques", name(rest), "limit"};
+  const std::string labels[] = {"observed", "rounding", "integration", "loop closure", model, name(rest), "limit"};
   for (std::size_t k = 0; k < std::size(labels); ++k)
     out.lines.push_back({labels[k], "m", inSi(budget.along[k + 1], units.length)});
   out.lines.front().role = CurveLine::Role::observed;
@@ -41,7 +43,7 @@ Curve curveOf(const ErrorBudget& budget, const Units& units, ErrorSource rest) {
   return out;
 }
 
-void addSources(const ReplayError& found, ErrorSource rest, ValidationResult& result) {
+void addSources(const ReplayError& found, ErrorSource rest, const std::string& model, ValidationResult& result) {
   const auto add = [&result](const std::string& what, const SourceOfError& source) {
     result.findings.push_back({what, "", source.error, source.uncertainty, "m"});
   };
@@ -49,7 +51,7 @@ void addSources(const ReplayError& found, ErrorSource rest, ValidationResult& re
   add("of it by rounding", found.rounding);
   add("of it by the integration", found.integration);
   add("of it by the loops' gaps", found.closure);
-  add("of it by the torques", found.model);
+  add((model == torques ? "of it by the " : "of it by ") + model, found.model);
   add(std::string("of it ") + name(rest), {found.unexplained, found.uncertainty});
   result.findings.push_back({"amplification of a deviation at the start", "", found.amplification});
 }
@@ -61,8 +63,11 @@ void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units&
     return check.reason == Reason::limit_useless && isOf(check, "replay");
   });
   // Torque errors between the samples leave no residual at them, so the error seems to have another source.
-  const bool torques_fail = std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
-    return check.verdict == Verdict::fail && check.reason == Reason::none && isOf(check, "torque");
+  const std::string odd_engine = result.odd_one.engine();
+  const std::string model = onlyOddEngineFails(result) ? odd_engine : torques;
+  const bool torques_fail = std::any_of(result.checks.begin(), result.checks.end(), [&odd_engine](const Check& check) {
+    return check.verdict == Verdict::fail && check.reason == Reason::none && isOf(check, "torque") &&
+           !isOfEngine(check, odd_engine);
   });
   if (!budget.measured && !anyIs(result.checks, Verdict::fail) && !limit_too_large)
     return;  // there is no error to have a source
@@ -76,8 +81,8 @@ void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units&
   found.dominant = dominant == ErrorSource::unexplained ? rest : dominant;
   result.findings.push_back({"dominant error", name(found.dominant)});
   if (found.measured) {
-    result.curves.push_back(curveOf(budget, units, rest));
-    addSources(found, rest, result);
+    result.curves.push_back(curveOf(budget, units, rest, model));
+    addSources(found, rest, model, result);
   }
   result.replay_error = std::move(found);
 }

@@ -278,6 +278,8 @@ TimeSeries validationSeries(const Manipulator& machine, const std::vector<Pointw
   const std::string unit = effortSuffix(machine.motors());
   columns.add("error_tau", unit, samples, [](const Sample& s) { return s.torque.error; });
   columns.add("limit_tau", unit, samples, [](const Sample& s) { return s.torque.limit; });
+  if (std::any_of(samples.begin(), samples.end(), [](const Sample& s) { return !s.torques_given.isZero(0); }))
+    addEfforts(columns, "limit_", machine.motors(), samples, [](const Sample& s) { return s.torqueLimits(); });
   columns.add("error_acceleration", "m_s2", samples, [](const Sample& s) { return s.acceleration.error; });
   columns.add("limit_acceleration", "m_s2", samples, [](const Sample& s) { return s.acceleration.limit; });
   addReplay(columns, motions, windows);

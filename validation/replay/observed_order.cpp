@@ -52,8 +52,7 @@ class LetGo {
     double out = 0;
     const std::optional<OdeState>& end = reached(duration, 16);
     if (!end) return std::numeric_limits<double>::infinity();
-    for (unsigned pattern = 1; pattern <= 3; ++pattern)
-      out = std::max(out, distance(*end, endOf(duration, 16, pattern)));
+    for (unsigned pattern = 1; pattern <= 3; ++pattern) out = larger(out, distance(*end, endOf(duration, 16, pattern)));
     return out;
   }
 

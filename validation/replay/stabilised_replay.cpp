@@ -13,6 +13,7 @@
 #include "nocsolver/noc/noc.h"
 #include "validation/replay/radau.h"
 #include "validation/replay/windows.h"
+#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
@@ -204,7 +205,7 @@ void follow(Stabilised& loop, const Subject& subject, const SimbodyLoop::TorqueH
       if (last) t = end;
       ++found.steps;
       const double torque = loop.term(deviation, trajectory.at(t)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-      if (!(torque <= found.torque)) found.torque = torque, found.t = t;
+      if (exceeds(torque, found.torque)) found.torque = torque, found.t = t;
       // Under wrong torques, no coordinate need be more accurate than the largest.
       const double size = three_digits * Eigen::Map<const Eigen::Matrix<double, 12, 1>>(deviation.data()).norm();
       if (found.torque > limit && size > 2 * tolerance) stepper = stepperOf(tolerance = size);

@@ -215,7 +215,7 @@ IntegrationError closerLook(const Scenario& scenario, const ReplayPlan& plan, co
       for (double IntegrationError::At::*part :
            {&IntegrationError::At::position, &IntegrationError::At::rotation, &IntegrationError::At::gap,
             &IntegrationError::At::gap_rate, &IntegrationError::At::energy})
-        out.steps[k].*part = std::max(out.steps[k].*part, error.steps[k].*part);
+        out.steps[k].*part = larger(out.steps[k].*part, error.steps[k].*part);
   }
   return out;
 }

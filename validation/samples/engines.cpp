@@ -32,7 +32,6 @@ std::vector<EngineSample> runEngines(const std::vector<EngineTorques>& engines,
       if (!engine.further[k]) continue;
       const double error = (engine.subject - *engine.further[k]).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
       engine.limits[k] = looks[k].limit(error, sample.conditioning, ofFurtherEngine(k), sample.motion);
-      engine.limit += engine.limits[k];
     }
     out.push_back(engine);
   }

@@ -19,7 +19,7 @@ struct EngineSample {
   Vector6d subject, simbody;  ///< N·m
   EngineTorques further;
   OfFurtherEngines<double> limits{};  ///< rounding limits between the subject and each further formulation, N·m
-  double limit = 0;                   ///< rounding limit between any two, N·m
+  double limit = 0;                   ///< the same between the subject and Simbody
 };
 
 /// Computes the torques of all further formulations at the instants.

@@ -11,6 +11,7 @@
 #include "base/scalar.h"
 #include "simbody/simbody_loop.h"
 #include "validation/subject/frame_change.h"
+#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 
@@ -149,11 +150,6 @@ void runKinematics(const Scenario& scenario, const Subject& subject, const Subje
   compareBodies(answer.bodies, loop.bodies(), sample);
 }
 
-void compareTorques(PointwiseSample& sample) {
-  for (int i = 0; i < motor_count; ++i)
-    raise(sample.torque, std::abs(sample.torques(i) - sample.torques_simbody(i)), i);
-}
-
 void runDynamics(const SimbodyAnswer& simbody, SimbodyLoop& loop, PointwiseSample& sample) {
   sample.torques_simbody = simbody.torques;
   compareTorques(sample);
@@ -251,6 +247,12 @@ std::vector<PointwiseSample> runJointsAndTorques(const Scenario& scenario, const
     compareJoints(subject.kinematics(sample.motion).joints, sample);
   }
   return samples;
+}
+
+void compareTorques(PointwiseSample& sample) {
+  WorstShare worst;
+  worst.addEach(sample.torques - sample.torques_simbody, sample.torqueLimits(), sample.motion.t);
+  sample.torque = {worst.value, worst.limit, worst.where};
 }
 
 std::size_t indexFrom(const std::vector<PointwiseSample>& samples, double t) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -37,16 +38,21 @@ struct Conditions {
 struct PointwiseSample {
   Motion<double> motion;
   Conditioning conditioning;
-  JointMotion joints;  ///< Simbody's own
-  Vector6d torques, torques_simbody;
+  JointMotion joints;                                                               ///< Simbody's own
+  Vector6d torques = Vector6d::Constant(std::numeric_limits<double>::quiet_NaN());  ///< NaN where refused
+  Vector6d torques_simbody = torques;
+  Vector6d torques_given = Vector6d::Zero();  ///< part of the torques' limits from the input, such as printed digits
   Deviation joint_angles, joint_rates, joint_accelerations;  ///< rad, rad/s, rad/s²
   Deviation position, twist, twist_rate;                     ///< over 13 bodies: m, m/s, m/s²
   Deviation jacobian, jacobian_rate;  ///< T φ̇ and T φ̈ + Ṫ φ̇ against the commanded t_P, ṫ_P: m/s, m/s²
   Deviation jacobian_difference;      ///< Ṫ against differences of T along the motion, m/s
-  Deviation torque;                   ///< N·m
+  Deviation torque;                   ///< of the motor with the largest share of its limit, N·m
   Deviation acceleration;             ///< platform, m/s²
   Vector6d acceleration_error = Vector6d::Zero();  ///< Simbody's minus commanded, [ω̇; p̈]
   std::string refused;                             ///< why the subject has no answer here; else empty
+
+  /// The limit of each motor's deviation, N·m.
+  Vector6d torqueLimits() const { return torques_given.array() + conditioning.torqueRounding(); }
 };
 
 /// Solver and Simbody at the same instants: joint state, 13 bodies, torques, accelerations. `profile` is the
@@ -65,6 +71,9 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
 /// (rounding_depth), not measured.
 std::vector<PointwiseSample> runJointsAndTorques(const Scenario& scenario, const Subject& subject,
                                                  const std::vector<double>& instants);
+
+/// Sets `torque` from the torques of both sides.
+void compareTorques(PointwiseSample& sample);
 
 /// The index of the first sample at t or after it, otherwise of the last.
 std::size_t indexFrom(const std::vector<PointwiseSample>& samples, double t);

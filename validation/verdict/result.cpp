@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "model/check_catalogue.h"
 #include "validation/verdict/worst_share.h"
 
 namespace ursula {
@@ -33,6 +34,38 @@ bool anyIs(const std::vector<Check>& checks, Verdict verdict) {
 }
 
 bool isOf(const Check& check, const std::string& group) { return check.name.rfind(group + ".", 0) == 0; }
+
+bool isOfEngine(const Check& check, const std::string& engine) {
+  const CheckRow* row = checkRow(check.name);
+  return row != nullptr && row->engine != nullptr && row->engine == engine;
+}
+
+bool onlyOddEngineFails(const ValidationResult& result) {
+  const std::string engine = result.odd_one.engine();
+  return anyIs(result.checks, Verdict::fail) &&
+         std::all_of(result.checks.begin(), result.checks.end(), [&engine](const Check& check) {
+           return check.verdict != Verdict::fail || isOfEngine(check, engine);
+         });
+}
+
+namespace {
+
+std::string inWords(const Voice& voice) {
+  if (voice.engine.empty()) return "the torques under test";
+  return voice.formulations.size() == 1 ? voice.formulations.front() : voice.engine + ", both topologies";
+}
+
+}  // namespace
+
+std::string inWords(const OddOne& odd_one) {
+  const std::vector<Voice>& odd = odd_one.odd;
+  if (odd_one.formulations == 0) return "unknown: no instant was compared";
+  if (odd_one.agree) return fmt::format("none: {} formulations agree", odd_one.formulations);
+  if (odd.size() == 1) return inWords(odd.front());
+  if (odd.size() == 2)
+    return fmt::format("either {} or {}: the others agree with both", inWords(odd.front()), inWords(odd.back()));
+  return "not one alone: the formulations disagree in more than one way";
+}
 
 const char* name(Verdict verdict) {
   static constexpr const char* names[] = {"pass", "fail", "inconclusive", "not_applicable"};
@@ -101,6 +134,7 @@ Check judgedIfUseful(const CheckedQuantity& quantity, const WorstShare& worst, s
     out = judged(quantity.name, shown.value, shown.limit, quantity.unit, std::move(basis),
                  shown.beyond || worst.widest_limit <= useful ? why : fmt::format("{}; note: {}", why, wide));
   out.missed = std::min(worst.widest_limit, useful) / quantity.size;
+  out.largest = {worst.largest, worst.largest_t, ""};
   return out;
 }
 
@@ -111,8 +145,9 @@ Verdict overall(const std::vector<Check>& checks) {
 }
 
 double EffortDeviation::smallestRelative() const {
-  double least = relative();
-  while (least * largest_effort < largest) least = std::nextafter(least, std::numeric_limits<double>::infinity());
+  const double most = larger(largest, from_without);
+  double least = most / largest_effort;
+  while (least * largest_effort < most) least = std::nextafter(least, std::numeric_limits<double>::infinity());
   return least;
 }
 

@@ -122,6 +122,8 @@ struct Check {
   LimitBy limit_by = LimitBy::derived;
   /// The largest error that would have passed, relative to the quantity's own size; NaN if unknown.
   double missed = std::numeric_limits<double>::quiet_NaN();
+  /// A shorter error may lie between the judged instants, s; NaN if unknown.
+  double gap = std::numeric_limits<double>::quiet_NaN();
   std::string off = {};  ///< the wrong efforts that make it fail, and their cause, in words; else empty
 };
 
@@ -165,6 +167,9 @@ struct CheckedQuantity {
 /// `cause`. It notes if a limit exceeds the useful threshold.
 Check judgedIfUseful(const CheckedQuantity& quantity, const WorstShare& worst, std::string basis, std::string why,
                      const std::string& cause);
+
+/// Whether the check compares with that engine; no check does with "".
+bool isOfEngine(const Check& check, const std::string& engine);
 
 /// Returns fail if any failed or none was judged, else inconclusive if any was, else pass.
 Verdict overall(const std::vector<Check>& checks);
@@ -210,6 +215,25 @@ struct Event {
   std::string what;
 };
 
+/// The formulations of one engine have one voice, so both topologies of Simbody do.
+struct Voice {
+  std::string engine;                     ///< as in CheckRow::engine; empty for the efforts under test
+  std::vector<std::string> formulations;  ///< those that contradict other voices: "Simbody, free platform"
+};
+
+/// Which formulation of the efforts contradicts the others, at the samples.
+struct OddOne {
+  int formulations = 0;         ///< number of those compared
+  bool agree = false;           ///< all of them
+  std::vector<Voice> odd = {};  ///< explains each contradiction alone; of two, either does; of none, several are wrong
+
+  /// The engine that contradicts the efforts under test and all others; empty if it is none, or not one alone.
+  std::string engine() const { return odd.size() == 1 ? odd.front().engine : ""; }
+};
+
+/// "none: 5 formulations agree", "Simbody, both topologies", …
+std::string inWords(const OddOne& odd_one);
+
 /// The largest deviation of the subject's efforts from the expected ones.
 struct EffortDeviation {
   std::string unit = "N m";   ///< unit of the efforts, as in checks; "N" if all motors slide
@@ -221,7 +245,10 @@ struct EffortDeviation {
   double duration = 0;        ///< duration of the motion, s
   double length = 0;          ///< length of the machine, m; with a larger drift the motion is lost
   double seen = std::numeric_limits<double>::quiet_NaN();  ///< an error of this share would have failed; NaN: unknown
+  double seen_for = 0;                                     ///< if it lasts longer than this, s
   double allowed = 0;                                      ///< by a user's tolerance; 0 if there is none
+  std::string without;      ///< the odd engine, from which efforts are not expected; else empty
+  double from_without = 0;  ///< largest deviation from it
 
   double relative() const { return largest / largest_effort; }
   /// The smallest `--rtol` that would pass by itself.
@@ -262,6 +289,10 @@ struct Finding {
 /// Returns the fact in words: "4e-11 m +- 4e-12 m", "0.57, leg 2 at t = 0 s".
 std::string textOf(const Finding& finding);
 
+struct ValidationResult;
+/// Whether a check failed, and all that did compare with the odd engine. Then the efforts are not to blame.
+bool onlyOddEngineFails(const ValidationResult& result);
+
 /// The result of one scenario's validation. Provenance keeps its order: (key, value as text).
 struct ValidationResult {
   std::string scenario;
@@ -273,6 +304,7 @@ struct ValidationResult {
   std::string run;  ///< names the run once its files are made
   /// Facts that are not judged: step counts, condition numbers, the dominant error, …
   std::vector<Finding> findings;
+  OddOne odd_one;
   std::optional<ReplayError> replay_error;   ///< nullopt if the caller left it out
   std::optional<NamedCause> cause;           ///< of wrong efforts; nullopt unless exactly one explains everything
   std::vector<NamedCause> causes;            ///< others that explain the deviation equally well

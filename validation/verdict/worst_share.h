@@ -4,7 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "base/scalar.h"
+
 namespace ursula {
+
+/// Whether `value` takes the place of `largest` in a search for the largest. NaN does, and stays.
+inline bool exceeds(double value, double largest) { return !std::isnan(largest) && !(value <= largest); }
 
 /// The value that a check shows out of many.
 struct JudgedValue {
@@ -33,13 +38,13 @@ struct WorstShare {
   bool beyond() const { return !(value <= limit); }
 
   void add(double new_value, double new_limit, double new_t, int new_where = -1) {
-    if (!any || (!std::isnan(largest) && !(new_value <= largest))) {
+    if (!any || exceeds(new_value, largest)) {
       largest = new_value;
       largest_limit = new_limit;
       largest_t = new_t;
       largest_where = new_where;
     }
-    if (!any || (!std::isnan(widest_limit) && !(new_limit <= widest_limit))) {
+    if (!any || exceeds(new_limit, widest_limit)) {
       widest_limit = new_limit;
       widest_t = new_t;
     }
@@ -50,6 +55,11 @@ struct WorstShare {
       where = new_where;
     }
     any = true;
+  }
+
+  /// Adds the error of each motor or component, which has its own limit.
+  void addEach(const Vector6d& errors, const Vector6d& limits, double new_t) {
+    for (int i = 0; i < errors.size(); ++i) add(std::abs(errors(i)), limits(i), new_t, i);
   }
 
   /// Compares each value with its derived limit L and with `useful` U, above which a value matters. Beyond L it fails.

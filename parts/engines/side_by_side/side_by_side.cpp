@@ -13,6 +13,7 @@
 #include "nocsolver/errors.h"
 #include "validation/subject/motion_check.h"
 #include "validation/subject/subject.h"
+#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 
@@ -60,7 +61,7 @@ class MovedLoop {
   /// Throws if a loop is wide open, because later states say nothing and may make an engine end the process.
   void requireClosed(const SteppedLoop::State& state) {
     const double gap = largestGap(state.tree, engine_.manipulator());
-    out_.gap = std::max(out_.gap, gap);
+    out_.gap = larger(out_.gap, gap);
     if (!(gap < reference_.length() / 10)) throw std::runtime_error(fmt::format("a loop is open by {:.2g} m", gap));
   }
 
@@ -84,8 +85,8 @@ class MovedLoop {
     const double of_motors = efforts.dot(next.q - is_.q), of_others = step / 2 * (is_.power + next.power);
     work_ += of_motors + of_others;
     out_.work += std::abs(of_motors) + std::abs(of_others);
-    out_.away = std::max(out_.away, (next.p - reference_.at(out_.steps * step + step).motion.p).norm());
-    out_.sag = std::max(out_.sag, sag(next.tree, engine_.manipulator()));
+    out_.away = larger(out_.away, (next.p - reference_.at(out_.steps * step + step).motion.p).norm());
+    out_.sag = larger(out_.sag, sag(next.tree, engine_.manipulator()));
     is_ = next;
     ++out_.steps;
     return true;
@@ -122,9 +123,6 @@ Scale scaleOf(const Instants& instants, const Motors& motors) {
   }
   return out;
 }
-
-/// NaN counts as the largest value and stays.
-bool exceeds(double value, double other) { return !(value <= other); }
 
 RecipeResult askBy(LoopEngine& engine, Recipe recipe, const Instants& instants, const Scale& scale) {
   const Motors& motors = engine.manipulator().motors();
@@ -194,8 +192,7 @@ class Asking {
     try {
       const std::unique_ptr<LoopEngine> engine = kind.make(*scenario_.manipulator, scenario_.load);
       for (const EngineReference::Here& here : instants_)
-        out.gap =
-            std::max(out.gap, largestGap(engine->tree(here.motion, LoopEngine::Bias::kept), engine->manipulator()));
+        out.gap = larger(out.gap, largestGap(engine->tree(here.motion, LoopEngine::Bias::kept), engine->manipulator()));
       for (const Recipe recipe : recipesOf(kind)) out.recipes.push_back(askBy(*engine, recipe, instants_, scale_));
       for (const Rigidity& rigidity : engine->rigidities())
         out.in_time.push_back(moveInTime(*engine, rigidity, reference_, moved_));

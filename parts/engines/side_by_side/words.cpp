@@ -111,12 +111,12 @@ std::string sentence(const SideBySide& found) {
   std::vector<std::string> with_users;
   for (const EngineResult& engine : found.engines) {
     if (!engine.refused.empty()) continue;
-    exact = std::max(exact, engine.of(Recipe::exact).error);
+    exact = larger(exact, engine.of(Recipe::exact).error);
     ++asked;
     if (engine.version.empty()) continue;  // this program's own formulation has no version
     const double obvious = engine.of(engine.kind->obvious).error;
     least = std::min(least, obvious);
-    most = std::max(most, obvious);
+    most = larger(most, obvious);
     with_users.emplace_back(engine.kind->name);
   }
   if (asked == 0) return "No engine could be asked about this machine.";
