@@ -78,23 +78,26 @@ std::shared_ptr<ScenarioWithSolver> scenarioOf(const py::object& given,
 std::shared_ptr<ScenarioWithSolver> importModel(const std::filesystem::path& file, const std::string& base,
                                                 const std::string& platform, const std::vector<std::string>& actuated,
                                                 const std::vector<std::string>& close, double tolerance, double lump) {
-  const py::gil_scoped_release unlocked;
+  std::shared_ptr<ScenarioWithSolver> out;
   try {
+    const py::gil_scoped_release unlocked;
     exchange::Imported imported = exchange::importModel(file, {base, platform, actuated, close, tolerance, lump});
     const std::filesystem::path named = std::filesystem::path(file).replace_extension(".toml");
-    auto out = std::make_shared<ScenarioWithSolver>(parseScenario(imported.scenario, named));
+    out = std::make_shared<ScenarioWithSolver>(parseScenario(imported.scenario, named));
     out->assumptions = std::move(imported.assumptions);
-    return out;
   } catch (const exchange::ImportError& error) {
     throw ScenarioError(error.what());
   }
+  for (const exchange::Assumption& each : out->assumptions)
+    if (each.warning) py::module_::import("warnings").attr("warn")(inWords(each));
+  return out;
 }
 
 py::list assumptionsOf(const ScenarioWithSolver& self) {
   py::list out;
   for (const exchange::Assumption& each : self.assumptions)
     out.append(py::dict(py::arg("what") = each.what, py::arg("where") = each.where, py::arg("size") = each.size,
-                        py::arg("unit") = each.unit));
+                        py::arg("unit") = each.unit, py::arg("warning") = each.warning));
   return out;
 }
 

@@ -32,10 +32,12 @@ constexpr const char* import_model =
 candidates. actuated: the joints that motors drive, if the file does not name them. close: pairs "A:B" of links
 whose frames a ball joins. tolerance (rad, and share of the machine's size): the largest error of axes that count
 as square or meeting. lump: the largest share of a leg's moments that crosses within joints may have; it is left
-out. The scenario's `assumptions` lists the assumptions made. Raises ScenarioError.)";
+out. The scenario's `assumptions` lists the assumptions made; warnings.warn() says those with `warning`, such as a
+closure that is open by more than 1e-3 of the machine's size. Raises ScenarioError.)";
 
 constexpr const char* assumptions =
-    "The assumptions of import_model(): a list of dicts with what, where, size and unit. Empty for other scenarios.";
+    "The assumptions of import_model(): a list of dicts with what, where, size, unit and warning, warnings first. Empty "
+    "for other scenarios.";
 
 constexpr const char* to_dict =
     R"(The scenario's source as a dict: every key that it gives, and the full paths of the files that it names.

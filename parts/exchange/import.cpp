@@ -45,16 +45,17 @@ ModelGraph readText(const std::string& text, const std::filesystem::path& file) 
 /// Adds the file and the line to every error.
 template <class Run>
 auto inFile(const std::filesystem::path& file, const Run& run) {
+  constexpr std::size_t most = 4000;
   const std::string name = shownPath(file.string());
+  const auto bounded = [](const std::string& text) { return text.size() > most ? shown(text, most) : text; };
   try {
     return run();
   } catch (const ImportError& error) {
-    throw ImportError(error.line > 0 ? fmt::format("{}:{}: error: {}", name, error.line, error.what())
-                                     : fmt::format("{}: error: {}", name, error.what()),
-                      error.line);
+    const std::string place = error.line > 0 ? fmt::format(":{}", error.line) : "";
+    throw ImportError(fmt::format("{}{}: error: {}", name, place, bounded(error.what())), error.line);
   } catch (const TextRefusal& error) {
     const std::string place = error.line > 0 ? fmt::format(":{}:{}", error.line, error.column) : "";
-    throw ImportError(fmt::format("{}{}: error: {}", name, place, error.what()));
+    throw ImportError(fmt::format("{}{}: error: {}", name, place, bounded(error.what())));
   }
 }
 

@@ -20,7 +20,11 @@ struct ImportOptions {
 std::string asJson(const exchange::Imported& imported) {
   nlohmann::ordered_json assumptions = nlohmann::ordered_json::array();
   for (const exchange::Assumption& each : imported.assumptions)
-    assumptions.push_back({{"what", each.what}, {"where", each.where}, {"size", each.size}, {"unit", each.unit}});
+    assumptions.push_back({{"what", each.what},
+                           {"where", each.where},
+                           {"size", each.size},
+                           {"unit", each.unit},
+                           {"warning", each.warning}});
   const nlohmann::ordered_json document = {{"scenario", imported.scenario}, {"assumptions", assumptions}};
   return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -29,8 +33,7 @@ std::string asJson(const exchange::Imported& imported) {
 int import(const ImportOptions& options) {
   const exchange::Imported imported = exchange::importModel(options.model, options.choices);
   if (!options.json) {
-    for (const exchange::Assumption& each : imported.assumptions)
-      say("{}: {} ({:.4g} {})\n", shown(each.where, 200), shown(each.what, 300), each.size, each.unit);
+    for (const exchange::Assumption& each : imported.assumptions) say("{}\n", inWords(each));
     writeOutput(options.out, imported.scenario);
     return exit_passed;
   }

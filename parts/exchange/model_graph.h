@@ -35,6 +35,8 @@ struct GraphJoint {
   std::size_t parent = 0, child = 0;            ///< indices into ModelGraph::bodies
   Vector3d centre = Vector3d::Zero();           ///< on the parent's side, in the world, m
   Vector3d centre_of_child = Vector3d::Zero();  ///< on the child's side; differs if a closure is open
+  Matrix3d turn =
+      Matrix3d::Identity();  ///< takes the child's side to the parent's; not the identity if a closure is open
   /// Unit vectors in the world. Revolute and prismatic use the first, universal both (parent's first). A
   /// coordinate grows as the child turns about or slides along its axis.
   std::array<Vector3d, 2> axis = {Vector3d::Zero(), Vector3d::Zero()};
@@ -45,6 +47,15 @@ struct GraphJoint {
   double rotor_inertia = 0;          ///< kg·m² or kg, added to the coordinate's own inertia
   bool driven = false;               ///< the format says that a motor drives it
   bool closure = false;
+
+  /// Returns the displacement of the child, in the world, that closes a joint which is open at the initial pose.
+  Eigen::Isometry3d closing() const {
+    Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
+    out.linear() = turn;
+    out.translation() = centre - turn * centre_of_child;
+    return out;
+  }
+  bool isOpen() const { return centre != centre_of_child || turn != Matrix3d::Identity(); }
 };
 
 /// One assumption of the import, with its size in the machine's own units.
@@ -53,8 +64,11 @@ struct Assumption {
   std::string where;  ///< bodies, joints or place in the file
   double size = 0;
   std::string unit = "1";  ///< "m", "rad", "1", "kg", …
+  bool warning = false;    ///< the file may not mean what was read; warnings come first
 };
 using Assumptions = std::vector<Assumption>;
+/// Returns one line of text, "warning: JOINT: This joint is open … (0.01 m)".
+std::string inWords(const Assumption& assumption);
 
 enum class ModelFormat { sdf, mjcf, urdf };
 

@@ -124,8 +124,7 @@ std::string scenarioText(const ImportedMachine& machine, const std::string& file
   out += fmt::format("# Effort columns 1, 2, …: {}.\n", shown(motorsOf(machine), 1000));
   out += "# Assumptions of the import:\n";
   if (machine.assumptions.empty()) out += "#   none\n";
-  for (const Assumption& each : machine.assumptions)
-    out += fmt::format("#   {}: {} ({:.4g} {})\n", shown(each.where, 200), shown(each.what, 300), each.size, each.unit);
+  for (const Assumption& each : machine.assumptions) out += fmt::format("#   {}\n", inWords(each));
   out += fmt::format("name = \"{}\"\n\n[manipulator]\ngravity = {}\n", plainName(machine.name), list(machine.gravity));
   out += fmt::format("\n[manipulator.platform]  # {}\nmass = {}\ncenter_of_mass = {}\ninertia = {}\n",
                      shown(machine.platform), text(machine.of_platform.mass), list(machine.of_platform.center_of_mass),

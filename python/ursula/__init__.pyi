@@ -98,7 +98,7 @@ class Scenario:
     def file(self) -> os.PathLike[str]: ...
     @property
     def assumptions(self) -> list[dict[str, Any]]:
-        """The assumptions of import_model(): what, where, size and unit of each."""
+        """The assumptions of import_model(): what, where, size, unit and warning of each, warnings first."""
     @property
     def duration(self) -> float:
         """Duration of the motion, s."""

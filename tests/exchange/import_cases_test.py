@@ -292,7 +292,119 @@ class Cases(import_test.Imports):
         _, assumptions = self.imported(text, "m.urdf")
         gap = self.said(assumptions, "open at the file's initial pose")[0]
         self.assertAlmostEqual(gap["size"], 1e-3, delta=1e-12)
-        self.assertEqual(gap["unit"], "m")
+        self.assertEqual((gap["unit"], gap["warning"]), ("m", False))  # below 1e-3 of the machine's size
+        text = text.replace(repr(float(number) + 1e-3), repr(float(number) + 0.03), 1)
+        _, assumptions = self.imported(text, "m.urdf")
+        self.assertEqual([a["warning"] for a in assumptions], [True] + [False] * (len(assumptions) - 1))
+        self.assertAlmostEqual(assumptions[0]["size"], 0.03, delta=1e-12)
+        said = import_test.run(Path(self.folder.name) / "m.urdf")
+        self.assertTrue(said.stderr.startswith("warning: "), said.stderr[:200])
+
+    def displaced(self, way, angle):
+        """A machine whose file has leg 1's ball on a tip that is not at its place on the platform, and the closure that says it."""
+        machine, bodies, joints, rng = made(21, ("UPS", "URS"))
+        ball = next(j for j in joints if j["kind"] == "S" and j["leg"] is machine["legs"][0])
+        text = files.write_mjcf(bodies, [j for j in joints if j is not ball], machine["gravity"], rng)
+        platform, rod = bodies["platform"]["T"], bodies["leg1_second"]["T"]
+        machine["legs"][0]["b"] = machine["legs"][0]["b"] + [0.011, -0.007, 0.004]
+        c = np.array([0.03, -0.02, 0.05])  # of the ball, in the tip
+        R = machines.random_rotation(rng)
+        tip = (ball["centre"] - R @ c, R)  # in the file
+        Q = machines.rotation([1, 2, 3], angle) @ platform[1].T @ R
+        on_platform = (machine["legs"][0]["b"] - Q @ c, Q)  # where the closure has it
+        m = files.Mjcf(rng)
+        m.degrees, m.sequence = 'angle="degree"' in text, "none"
+        site = lambda name, T: f'<site name="{name}" pos="{files.num(T[0])}" quat="{files.num(files.quat(T[1]))}"/>'
+        body = (f'<body name="tip" {m.place(files.relative(rod, tip))}><joint name="leg1_j3" type="ball" pos="{files.num(c)}"/>'
+                f"{site('a', (np.ones(3), np.eye(3)))}</body>")
+        start = text.index('<body name="leg1_second"')
+        end = start + re.search("</body>", text[start:]).start()
+        text = text[:end] + body + text[end:]
+        at = text.index("<freejoint/>")
+        text = text[:at] + site("b", files.times(on_platform, (np.ones(3), np.eye(3)))) + text[at:]
+        anchor = np.array([0.1, 0.2, -0.3])
+        pose = lambda T, t: f'{files.num(t)} {files.num(2 * files.quat(T[1]))}'
+        to_platform = files.inverse(on_platform)
+        weld = {"tip": f'<weld name="w" body1="tip" body2="platform" relpose="{pose(to_platform, to_platform[0])}"/>',
+                "platform": f'<weld name="w" body1="platform" body2="tip" relpose="{pose(on_platform, on_platform[0])}"/>',
+                "anchor": f'<weld name="w" body1="tip" body2="platform" anchor="{files.num(anchor)}" torquescale="2" '
+                          f'relpose="{pose(to_platform, to_platform[0] + to_platform[1] @ anchor)}"/>',
+                "sites": '<weld name="w" site1="b" site2="a"/>',
+                "none": '<weld name="w" body1="tip" body2="platform"/>',
+                "zero": '<weld name="w" body1="tip" body2="platform" relpose="1 2 3 0 0 0 0"/>'}[way]
+        return machine, text.replace("</equality>", weld + "</equality>")
+
+    def test_a_weld_is_believed_where_it_says_it_holds(self):
+        for way in ("tip", "platform", "anchor", "sites"):
+            for angle in (0, 0.05, 2):
+                with self.subTest(way=way, angle=angle):
+                    machine, text = self.displaced(way, angle)
+                    scenario, assumptions = self.imported(text, "m.xml")
+                    self.hold(scenario, machine, False, machine["gravity"], True)
+                    warned = [a for a in assumptions if a["warning"]]
+                    self.assertEqual(warned, assumptions[:len(warned)])
+                    self.assertEqual({a["where"] for a in warned}, {"w"})
+                    self.assertEqual(len(warned), 1 + (angle > 0))
+                    self.assertIn("#   warning: w: ", scenario_of(self.folder, text))
+        for way in ("none", "zero"):  # the file's pose holds: the ball is elsewhere
+            machine, text = self.displaced(way, 2)
+            scenario, assumptions = self.imported(text, "m.xml")
+            off = np.array(scenario["manipulator"]["leg"][0]["platform_point"]) - machine["legs"][0]["b"]
+            self.near(off, [-0.011, 0.007, -0.004], 10, "point")
+            self.assertFalse(any(a["warning"] for a in assumptions))
+
+    def test_a_weld_of_no_torque_is_a_ball(self):
+        machine, bodies, joints, rng = made(22)
+        text = files.write_mjcf(bodies, joints, machine["gravity"], rng)
+        connect = re.search('<connect name="(.*?)" body1="(.*?)" body2="(.*?)" anchor="(.*?)"/>', text)
+        _, first, second, anchor = connect.groups()
+        world = files.times(bodies[first]["T"], (np.array(anchor.split(), float), np.eye(3)))
+        other = files.relative(bodies[second]["T"], world)[0]
+        weld = f'<weld body1="{first}" body2="{second}" anchor="{files.num(other)}" relpose="{anchor} 0.1 0.2 0.3 0.4" torquescale="{{}}"/>'
+        scenario, assumptions = self.imported(text.replace(connect[0], weld.format(0)), "m.xml")
+        self.hold(scenario, machine, False, machine["gravity"], True)
+        self.assertFalse(any(a["warning"] for a in assumptions))
+        self.refused(text.replace(connect[0], weld.format(1)), "m.xml", ["6 motors", "3 freedoms", connect[1].split("_")[0]])
+
+    def test_a_foot_that_a_weld_puts_in_its_place(self):
+        """The leg on it comes along: its first axis is the base's."""
+        for kind in ("UPS", "URS", "RUS", "PUS"):
+            with self.subTest(kind=kind):
+                machine, bodies, joints, rng = made(23, (kind,))
+                text = files.write_mjcf(bodies, joints, machine["gravity"], rng)
+                ball = next(j for j in joints if j["name"] == "leg1_j3")
+                start = text.index('<body name="leg1_first"')
+                end, depth = start, 0
+                for tag in re.finditer("<body|</body>", text[start:]):
+                    depth += 1 if tag[0] == "<body" else -1
+                    if depth == 0:
+                        end = start + tag.end()
+                        break
+                leg = text[start:end]
+                text = text[:start] + text[end:]
+                off = (np.array([0.02, -0.01, 0.03]), machines.rotation([3, 1, 2], 0.2))
+                m = files.Mjcf(rng)
+                m.degrees, m.sequence = 'angle="degree"' in text, "none"
+                foot = f'<body name="foot" {m.place(files.times(off, bodies["base"]["T"]))}><freejoint/>{leg}</body>'
+                text = text.replace("</worldbody>", foot + "</worldbody>")
+                point = lambda b: files.num(files.relative(bodies[b]["T"], (ball["centre"], np.eye(3)))[0])
+                for body, name in (("leg1_second", "a"), ("platform", "b")):
+                    tag = re.search(f'<body name="{body}"[^>]*>', text)
+                    text = text[:tag.end()] + f'<site name="{name}" pos="{point(body)}"/>' + text[tag.end():]
+                text = re.sub('<connect name="leg1_j3"[^>]*/>', '<connect name="leg1_j3" site1="a" site2="b"/>', text)
+                weld = '<weld name="w" body1="foot" body2="base" relpose="0 0 0 1 0 0 0"/>'
+                scenario, _ = self.imported(text.replace("</equality>", weld + "</equality>"), "m.xml")
+                self.hold(scenario, machine, False, machine["gravity"], True)
+
+    def test_six_dimensional_pairs_of_robot_yaml(self):
+        """Frames that are one, whatever the file's pose is; the first column is the leg's ball on its tip."""
+        machine, bodies, joints, rng = made(24)
+        text = files.write_urdf(bodies, joints, rng, "close")
+        ends = re.findall(r'<link name="(\w+)_end1"', text)
+        Path(self.folder.name, "robot.yaml").write_text(
+            f"closed_loop: [{', '.join(f'[{e}_end1, {e}_end2]' for e in ends)}]\ntype: [{', '.join('3d' for _ in ends)}]\n")
+        scenario, _ = self.imported(text, "m.urdf")
+        self.hold(scenario, machine, True, [0, 0, -9.81], True)
 
     def test_digits_of_the_file_may_break_the_triangle(self):
         """[0.33, 0.33, 0.67] is a rod of 1 %; its digits allow for the rest."""
@@ -306,6 +418,12 @@ class Cases(import_test.Imports):
         self.refused(thin.format("0.33 0.33 0.70"), "m.xml", ["platform", "exceeds"])
         self.refused(thin.format("0.3300 0.3300 0.6700"), "m.xml", ["platform", "exceeds"])
         self.refused(thin.format("0.33 0.33 1e2"), "m.xml", ["platform", "exceeds"])  # not a number of one digit
+
+
+def scenario_of(folder, text):
+    path = Path(folder.name) / "text.xml"
+    path.write_text(text)
+    return import_test.run(path).stdout
 
 
 if __name__ == "__main__":

@@ -308,6 +308,9 @@ def close(closure, j, link, frames):
     if closure == "isaac":
         return (f'<loop_joint name="{j["name"]}" type="spherical"><link1 link="{link}" xyz="{num(points[0])}" rpy="0 0 0"/>'
                 f'<link2 link="platform" xyz="{num(points[1])}" rpy="0 0 0"/></loop_joint>\n')
+    if closure == "constraint":
+        return (f'<constraint name="{j["name"]}" type="spherical"><parent link="{link}"/><parent_origin xyz="{num(points[0])}" rpy="1 2 3"/>'
+                f'<child link="platform"/><child_origin xyz="{num(points[1])}"/></constraint>\n')
     if closure == "gazebo":
         return (f'<gazebo><joint name="{j["name"]}" type="ball"><parent>{link}</parent><child>platform</child>'
                 f"<pose>{num(points[1])} 0 0 0</pose></joint></gazebo>\n")

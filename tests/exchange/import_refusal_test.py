@@ -18,6 +18,7 @@ import import_files as files  # noqa: E402
 import import_machines as machines  # noqa: E402
 
 PROGRAM = "ursula"
+CASES = Path(__file__).with_name("cases")
 
 
 def machine_of(seed=7, kinds=("UPS",), split=False, **more):
@@ -100,7 +101,11 @@ class Refusals(unittest.TestCase):
                 (r'<actuator>', '<actuator><muscle name="m" joint="leg1_j0"/>', ["muscle", "leg1_j0"]),
                 (r"<freejoint/>", '<joint name="f" type="free" armature="0.5"/>', ['name="f"', "free joint", "0.5"]),
                 (r"<worldbody>", '<worldbody><joint name="w"/>', ['name="w"', "of the world"]),
-                (r"<equality>", '<equality><weld name="g" body1="leg1_first" body2="leg1_second" relpose="0 0 0 0 1 0 0"/>', ["g", "turned"]),
+                (r"<equality>", '<equality><weld name="g" body1="leg1_first" body2="leg1_second" relpose="0 0 0 0 1 0 0"/>', ["both of its sides", "leg1_"]),
+                (r"<equality>", '<equality><weld name="g" site1="a" body1="leg1_first" relpose="0 0 0 1 0 0 0"/>', ["sites and relpose"]),
+                (r"(<freejoint/>)", r'\1<frame><inertial pos="0 0 0" mass="1"/></frame>', ["<inertial>", "<frame>"]),
+                (r'<motor joint="leg6_j2"/>', '<motor joint="leg6_j2" armature="2"/>', ["armature 2", "actuator"]),
+                (r'pos="\S+', 'pos="1e200', ["pos has 1e200", "1e+12"]),
                 (r"<option ", '<option viscosity="0.1" ', ["viscosity"])):
             with self.subTest(words=words):
                 self.refused(self.changed(whole, pattern, to), "m.xml", words)
@@ -117,6 +122,12 @@ class Refusals(unittest.TestCase):
                 (r'<sdf version="1\.\d+"', '<sdf version="2.0"', ["2.0"]),
                 (r"<axis2>.*?</axis2>", "", ["axis2", "unfinished"]),
                 (r"<parent>platform</parent>|<child>platform</child>", "", ["expected a link's name"]),
+                (r"<gravity>", "<gravity>1 2 3</gravity><gravity>", ["second <gravity>"]),
+                (r"<gravity>", "<physics><gravity>1 2 3</gravity></physics><gravity>", ["second <gravity>"]),
+                (r"</world>", "<state><model name='machine'><pose>1 0 0 0 0 0</pose></model></state></world>", ["<state>", "pose"]),
+                (r"</model>", "<gearbox><a>leg1_first</a><b>leg2_first</b></gearbox></model>", ["<gearbox>", "leg1_first", "leg2_first"]),
+                (r"<limit>.*?</limit>", "<limit><lower>1</lower><upper>-1</upper></limit>", ["lower limit, 1,", "upper one, -1"]),
+                (r"(<pose[^>]*>)\S+", r"\1 1e200", ["<pose> has 1e200"]),
                 (r'<joint name="ground"', '<joint name="leg1_j2"', ["leg1_j2", "second"])):
             with self.subTest(words=words):
                 self.refused(self.changed(whole, pattern, to), "m.sdf", words, *drives)
@@ -134,6 +145,99 @@ class Refusals(unittest.TestCase):
                 (r'<parent link="base"/>', '<parent link="bse"/>', ["bse", "did you mean 'base'"])):
             with self.subTest(words=words):
                 self.refused(self.changed(whole, pattern, to), "m.urdf", words)
+
+    def test_texts_in_pieces(self):
+        """Readers differ in which piece they take; a comment beside a whole text, and CDATA, are none."""
+        whole, drives = sdf(), ("--actuated", ",".join(f"leg{i}_j2" for i in range(1, 7)))
+        mass = re.search("<mass>(.)(.*?)</mass>", whole)
+        for between in ("<!-- x -->", "<x/>", "<![CDATA[1]]>"):
+            with self.subTest(between=between):
+                text = whole.replace(mass[0], f"<mass>{mass[1]}{between}{mass[2]}</mass>", 1)
+                self.refused(text, "m.sdf", ["<mass>", "in pieces", f":{text[:text.index(between)].count(chr(10)) + 1}:"], *drives)
+        plain = self.call(whole, "m.sdf", *drives)[1].read_text()
+        for one in ("<!-- kg -->{}<!-- x -->", "<![CDATA[{}]]>"):
+            text = whole.replace(mass[0], "<mass>" + one.format(mass[1] + mass[2]) + "</mass>", 1)
+            self.assertEqual(self.call(text, "m.sdf", *drives)[1].read_text(), plain)
+
+    def test_what_couples_links_in_urdf(self):
+        """An unknown element is refused if it names two links or joints, and listed if it names one; so are texts."""
+        ends = '<a link="{}"/><b joint="{}"/>'
+        for name in ("coupling", "loop", "other:gear"):
+            text = urdf().replace("</robot>", f'<{name} name="g">{ends.format("leg1_first", "leg2_j2")}</{name}></robot>')
+            line = text[:text.index('name="g"')].count("\n") + 1
+            self.refused(text, "m.urdf", [f'<{name} name="g">', "leg1_first", "leg2_j2", f":{line}:"])
+        self.refused(urdf().replace("</robot>", "<gear><a>leg1_first</a><b>leg2_first</b></gear></robot>"), "m.urdf", ["<gear>", "leg2_first"])
+        for more in (ends.format("leg1_first", "none"), ends.format("leg1_first", "leg1_first")):
+            done, out = self.call(urdf().replace("</robot>", f"<coupling>{more}</coupling></robot>"), "m.urdf")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("<coupling>, which is left out", done.stderr)
+            out.unlink()
+        done, out = self.call(urdf().replace("</robot>", f"<disable_collisions>{ends.format('leg1_first', 'leg2_j2')}</disable_collisions></robot>"), "m.urdf")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        out.unlink()
+        closed = urdf("constraint")
+        done, out = self.call(closed, "m.urdf")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        out.unlink()
+        self.refused(closed.replace('type="spherical"', 'type="gear"', 1), "m.urdf", ["a gear constraint", "spherical"])
+        self.refused(self.changed(urdf(), r"(<transmission .*?<actuator)", r'\1 name="other"/><actuator'), "m.urdf", ["second <actuator>", "couples"])
+
+    def test_a_link_that_leads_out_of_the_folder(self):
+        """Nothing of its target is printed; one within the folder is read."""
+        folder = Path(self.folder.name)
+        (folder / "model").mkdir()
+        (folder / "secret.txt").write_text("root:x:0:0\n")
+        link = folder / "model" / "robot.yaml"
+        link.symlink_to(folder / "secret.txt")
+        done, out = self.call(urdf("close"), "model/m.urdf")
+        self.assertEqual((done.returncode, out.exists()), (2, False))
+        self.assertIn("robot.yaml beside it is a link that leads out of its folder", done.stderr)
+        self.assertNotIn("root", done.stderr)
+        link.unlink()
+        pairs = re.findall(r'<link name="(\w+_end1)"', urdf("close"))
+        (folder / "model" / "own.yaml").write_text(f"closed_loop: [{', '.join(f'[{a}, {a[:-1]}2]' for a in pairs)}]\ntype: [3d]\n")
+        link.symlink_to("own.yaml")
+        done, _ = self.call(urdf("close"), "model/m.urdf")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_an_axis_of_zero(self):
+        """CAD writes it for fixed joints, which have none; a hinge needs one."""
+        fixed = self.changed(urdf(), r'(<joint name="platform_mount".*?)</joint>', r'\1<axis xyz="0 0 0"/></joint>')
+        self.assertEqual(self.call(fixed, "m.urdf")[0].returncode, 0)
+        Path(self.folder.name, "out.toml").unlink()
+        self.refused(self.changed(urdf(), r'<axis xyz="[^"]*"', '<axis xyz="0 0 0"'), "m.urdf", ["axis is zero"])
+
+    def test_limits_of_urdf(self):
+        """A missing one is zero, as urdfdom has it; a lower one above the upper one is refused."""
+        limited = lambda text: self.changed(re.sub(r"<limit[^>]*/>", "", urdf()), r'(<joint name="leg2_j2".*?)</joint>', rf"\1<limit {text}/></joint>")
+        self.refused(limited('lower="1" upper="-1"'), "m.urdf", ["leg2_j2", "lower limit, 1", "upper one, -1"])
+        self.refused(limited('upper="-1"'), "m.urdf", ["leg2_j2", "lower limit, 0", "upper one, -1"])
+        self.assertEqual(self.call(limited('lower="-1" upper="1"'), "m.urdf")[0].returncode, 0)
+
+    def test_messages_are_bounded(self):
+        """20,000 motors on one joint are said in one line; long names and numbers are cut."""
+        many = self.changed(mjcf(), "</actuator>", '<motor joint="leg1_j2"/>' * 20000 + "</actuator>")
+        done, _ = self.call(many, "m.xml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr.count("Several actuators"), 1)
+        self.assertIn("20000", done.stderr)
+        self.assertLess(len(done.stderr), 20000)
+        for text in (self.changed(mjcf(), r'<joint name="leg1_j2"', '<joint stiffness="1' + "0" * 100000 + '" name="leg1_j2"'),
+                     self.changed(mjcf(), r'<joint name="leg1_j2"', f'<joint springdamper="1 0.{"0" * 100000}1" name="leg1_j2"')):
+            done, _ = self.call(text, "m.xml")
+            self.assertEqual(done.returncode, 2)
+            self.assertLess(len(done.stderr), 6000)
+
+    def test_other_machines_than_six_motors_on_legs(self):
+        """Motors and freedoms are counted first; a rod that turns with the platform's joint is no cross of a ball."""
+        case = lambda name: (CASES / name).read_text()
+        self.refused(case("fivebar.xml"), "m.xml", ["2 motors (lm, rm) and 2 freedoms", "six motors"])
+        self.refused(case("delta.xml"), "m.xml", ["3 motors (m0, m1, m2) and 3 freedoms", "six motors"])
+        self.refused(case("no-inertial.urdf"), "m.urdf", ["has a mass", "<inertial>"])
+        for options in ((), ("--lump", "1")):
+            self.refused(case("ucu.xml"), "m.xml", ["R R P R R R", "w0, p0 and r0", "up0", "no cross", "U C U"], *options)
+        self.refused(case("ball-of-hinges-that-miss.xml"), "m.xml", ["p0, r0 and w0", "no ball", "0.04 m"])
+        self.refused(self.changed(mjcf(), r'<motor joint="leg6_j2"/>', ""), "m.xml", ["5 driven joints"])
 
     def test_names_of_base_and_platform(self):
         whole = mjcf()

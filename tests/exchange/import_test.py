@@ -108,7 +108,7 @@ class Imports(unittest.TestCase):
         for seed in range(40):
             with self.subTest(seed=seed):
                 rng = np.random.default_rng(2000 + seed)
-                closure = ("drake", "isaac", "gazebo", "names", "close")[seed % 5]
+                closure = ("drake", "isaac", "gazebo", "names", "close", "constraint")[seed % 6]
                 machine = machines.random_machine(rng, rotor=seed % 2 == 1)
                 bodies, joints = machines.bodies_of(machine, rng)
                 options = []

@@ -146,6 +146,15 @@ TEST(ReadUrdf, robotYamlNamesPairsAndMotors) {
   EXPECT_EQ(graph.joints[2].centre_of_child.z() - graph.joints[2].centre.z(), 0.5);
   EXPECT_THAT(graph.motors, testing::IsEmpty()) << "a part of names gives no order";
 
+  // A joint's name stands for the frame of its child.
+  std::ofstream(folder / "robot.yaml") << "closed_loop: [[mot1, free1]]\ntype: [6d]\n";
+  const GraphJoint closure = readModel(folder / "r.urdf").joints.at(2);
+  EXPECT_EQ(closure.kind, JointKind::fixed);
+  EXPECT_EQ(closure.child, graph.joints[2].child);
+  EXPECT_EQ(closure.closing().translation().z(), -0.5);
+  std::ofstream(folder / "robot.yaml") << "closed_loop: [[mot1, none]]\n";
+  EXPECT_THROW(readModel(folder / "r.urdf"), ImportError);
+
   std::ofstream(folder / "robot.yaml") << "name_mot: [free1, mot1]\n";
   EXPECT_THAT(readModel(folder / "r.urdf").motors, testing::ElementsAre("free1", "mot1"));
 }

@@ -91,6 +91,36 @@ TEST_P(ReadMujoco, agreesOnJoints) {
   EXPECT_GT(compared, 0);
 }
 
+/// Welds by relpose, with an anchor in body 2 and a quaternion of any length, and closures of the initial pose; the
+/// residuals that MuJoCo has there must be the graph's gaps.
+constexpr const char* closures = R"(<mujoco><compiler angle="radian"/><worldbody>
+  <body name="a" pos="1 2 3" euler="0.3 0.2 0.1"><joint name="a1"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/></body>
+  <body name="b" pos="-1 0.5 2" euler="-0.3 0.5 0.7"><joint name="b1"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/></body></worldbody>
+  <equality><weld body1="a" body2="b" relpose="0.4 0.5 0.6 2 0.2 0.4 0"/>
+    <weld body1="a" body2="b" anchor="0.1 0.2 0.3" relpose="0.4 0.5 0.6 -2 0.2 0.4 0.7"/><weld body1="a" body2="b" anchor="0.1 0.2 0.3"/>
+    <weld body1="a" relpose="0.1 0 0 0 1 1 0"/><connect body1="a" body2="b" anchor="1 2 3"/></equality></mujoco>)";
+
+TEST_P(ReadMujoco, agreesOnGaps) {
+  const ModelGraph graph = readModel(file_);
+  mj_forward(model_.get(), data_.get());
+  int row = 0, closure = 0;
+  for (const GraphJoint& joint : graph.joints) {
+    if (!joint.closure) continue;
+    SCOPED_TRACE(closure++);
+    ASSERT_LE(row + (joint.kind == JointKind::fixed ? 6 : 3), data_->ne);
+    EXPECT_LE((joint.centre - joint.centre_of_child - Map3(data_->efc_pos + row)).norm(), tolerance);
+    row += 3;
+    if (joint.kind != JointKind::fixed) continue;
+    const Matrix3d child = graph.bodies[joint.child].frame.linear();
+    const Eigen::Quaterniond turn(Matrix3d(child.transpose() * joint.turn * child));
+    const Vector3d of_mujoco = Map3(data_->efc_pos + row);
+    EXPECT_LE(std::min((turn.vec() - of_mujoco).norm(), (turn.vec() + of_mujoco).norm()), tolerance);
+    row += 3;
+  }
+  EXPECT_EQ(closure, model_->neq);
+  EXPECT_EQ(row, data_->ne);
+}
+
 constexpr const char* orientations =
     R"(<mujoco><compiler angle="degree" eulerseq="XzY"/><option gravity="1 2 -3"/><worldbody>
   <body name="a" pos="1 2 3" euler="10 20 30"><joint name="a1" axis="1 2 3" pos="0.1 0 0" ref="25" limited="true" range="-40 50"/>
@@ -99,6 +129,9 @@ constexpr const char* orientations =
       <inertial pos="0 0 0.1" mass="1" fullinertia="0.5 0.6 0.7 0.01 0.02 0.03"/>
       <body name="c" xyaxes="1 1 0 0 1 1"><joint name="c1" type="ball" pos="0 0.2 0"/><geom type="capsule" fromto="0 0 0 0.3 0.4 0.5" size="0.1"/></body>
       <body name="d" zaxis="0.3 -0.2 -1"><joint name="d1"/><inertial pos="0 0 0" mass="1" diaginertia="1 2 2.5" zaxis="1 2 3"/></body></body></body>
+  <body name="e" zaxis="1e-9 0 -1"><joint name="e1"/><inertial pos="0 0 0" mass="1" diaginertia="1 2 2.5"/></body>
+  <body name="g" zaxis="1e-6 0 -1"><joint name="g1"/><inertial pos="0 0 0" mass="1" diaginertia="1 2 2.5"/></body>
+  <body name="f" zaxis="0 0 -2"><joint name="f1"/><geom type="box" fromto="0 0 1 1e-9 0 2" size="0.1"/></body>
   </worldbody></mujoco>)";
 
 constexpr const char* shapes =
@@ -145,7 +178,7 @@ constexpr const char* urdf =
   <link name="c"><inertial><mass value="0.1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
   <joint name="c1" type="prismatic"><parent link="b"/><child link="c"/><axis xyz="0 1 0"/><limit lower="-1" upper="2" effort="1" velocity="1"/></joint></robot>)";
 
-INSTANTIATE_TEST_SUITE_P(, ReadMujoco, testing::Values(orientations, shapes, classes, bounds, raised, urdf));
+INSTANTIATE_TEST_SUITE_P(, ReadMujoco, testing::Values(orientations, shapes, classes, bounds, raised, urdf, closures));
 
 }  // namespace
 }  // namespace ursula::exchange

@@ -34,7 +34,7 @@ def test_an_export_comes_back(kind, form, tmp_path):
     assert np.abs(expected).max() > 1
     # Ten decimals of lengths and angles are more than any format loses.
     assert np.abs(found - expected).max() <= 1e-10 * np.abs(expected).max()
-    assert all(set(each) == {"what", "where", "size", "unit"} for each in imported.assumptions)
+    assert all(set(each) == {"what", "where", "size", "unit", "warning"} for each in imported.assumptions)
     assert ursula.scenario(imported.to_toml()).to_dict() == imported.to_dict()
 
 

@@ -114,8 +114,12 @@ class MjcfReader {
       if (body == 0 && (kind == "joint" || kind == "freejoint" || kind == "inertial"))
         refuse(e, "of the world, which does not move; expected one of a body");
       if (kind == "geom" && body != 0 && from_geoms) addGeom(e, compiler_, at.frame, get, graph_.bodies[body]);
-      if (kind == "site" && !attribute(e, "name").empty())
-        named_.sites[attribute(e, "name")] = {body, at.frame * placeOf(e, get)};
+      if (kind == "inertial" && e.Parent() != &element) refuse(e, "within a <frame>, expected it in the body itself");
+      if (kind == "site" && !attribute(e, "name").empty()) {
+        const Eigen::Isometry3d own = get("fromto").empty() ? placeOf(e, get) : mjcfFromTo(e, get("fromto")).frame;
+        if (!named_.sites.emplace(attribute(e, "name"), MjcfSite{body, at.frame * own}).second)
+          refuse(e, "a second site of that name, expected names of their own");
+      }
     });
     // A body without geoms keeps its own numbers, whatever inertiafromgeom says.
     if (body != 0 && from_geoms && inertial != nullptr && graph_.bodies[body].mass == 0)
@@ -234,7 +238,7 @@ class MjcfReader {
     if (const std::string ref = get("ref"); !ref.empty()) joint.position = inUnits(numberOf(element, ref, "ref"));
     const std::string limited = get("limited"), range = get("range");
     if (range.empty() || limited == "false" || (limited != "true" && !compiler_.auto_limits)) return;
-    const std::vector<double> ends = numbersOf(element, range, 2, "range");
+    const std::vector<double> ends = numbersOf(element, range, 2, "range", HUGE_VAL);
     if (ends[0] == 0 && ends[1] == 0) return;  // MuJoCo's default
     if (!(ends[0] < ends[1]))
       refuse(element, fmt::format("range {}, expected its first number below the second", range));

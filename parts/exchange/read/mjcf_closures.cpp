@@ -20,46 +20,33 @@ const typename Map::mapped_type& find(const Element& at, const Map& map, const s
   refuse(at, fmt::format("{} '{}': nothing has that name{}", what, shown(name), didYouMean(name, names)));
 }
 
-constexpr double most_turned = 0.1;  ///< rad; more is no small gap but another pose
-
-void sayGap(const std::string& name, const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, ModelGraph& graph) {
-  const double gap = (a.translation() - b.translation()).norm();
-  const double angle = Eigen::AngleAxisd(Matrix3d(a.linear().transpose() * b.linear())).angle();
-  if (angle > most_turned)
-    throw ImportError(fmt::format(
-        "{} is turned by {:.3g} rad at the file's initial pose, expected the pose in which its bodies are one",
-        shown(name), angle));
-  if (gap > 1e-12) graph.assumptions.push_back({"This weld is open at the file's initial pose", name, gap, "m"});
-  if (angle > 1e-9) graph.assumptions.push_back({"This weld is turned at the file's initial pose", name, angle, "rad"});
-}
-
-void joinSites(const Element& element, const std::string& first, const MjcfNamed& named, GraphJoint& joint,
-               ModelGraph& graph) {
+void joinSites(const Element& element, const std::string& first, const MjcfNamed& named, GraphJoint& joint) {
+  for (const char* name : {"anchor", "relpose"})
+    if (!attribute(element, name).empty())
+      refuse(element, fmt::format("both sites and {}, expected one of them", name));
   const MjcfSite& a = find(element, named.sites, first, "site1");
   const MjcfSite& b = find(element, named.sites, requiredAttribute(element, "site2"), "site2");
   joint.parent = a.body;
   joint.child = b.body;
-  joint.centre = a.frame.translation();
-  joint.centre_of_child = b.frame.translation();
-  if (joint.kind == JointKind::fixed) sayGap(joint.name, a.frame, b.frame, graph);
+  joinFrames(a.frame, b.frame, joint);
 }
 
-void joinBodies(const Element& element, const MjcfNamed& named, GraphJoint& joint, ModelGraph& graph) {
-  const std::string second = attribute(element, "body2");
+void joinBodies(const Element& element, const MjcfNamed& named, const ModelGraph& graph, GraphJoint& joint) {
+  const std::string second = attribute(element, "body2"), relative = attribute(element, "relpose");
   joint.parent = find(element, named.bodies, requiredAttribute(element, "body1"), "body1");
   joint.child = second.empty() ? 0 : find(element, named.bodies, second, "body2");
   const Eigen::Isometry3d &a = graph.bodies[joint.parent].frame, &b = graph.bodies[joint.child].frame;
-  if (joint.kind == JointKind::ball) {
-    joint.centre = joint.centre_of_child = a * vectorOf(element, requiredAttribute(element, "anchor"), "anchor");
-    return;
-  }
-  joint.centre = joint.centre_of_child = b.translation();
-  const std::string relative = attribute(element, "relpose");
-  if (relative.empty()) return;
+  const bool connects = std::string(element.Name()) == "connect";
+  const std::string anchor = connects ? requiredAttribute(element, "anchor") : attribute(element, "anchor");
+  const Vector3d point = anchor.empty() ? Vector3d::Zero() : vectorOf(element, anchor, "anchor");
+  joint.centre = joint.centre_of_child = (connects ? a : b) * point;
+  if (connects || relative.empty()) return;
   const std::vector<double> v = numbersOf(element, relative, 7, "relpose");
   const Eigen::Quaterniond q(v[3], v[4], v[5], v[6]);
-  // A zero quaternion stands for the file's own pose.
-  if (q.norm() > 1e-12) sayGap(joint.name, a * placed({v[0], v[1], v[2]}, q.normalized().toRotationMatrix()), b, graph);
+  // A zero quaternion stands for the file's own pose. With an anchor, which is in body 2, relpose is the anchor's pose.
+  if (q.norm() > 1e-12)
+    joinFrames(a * placed({v[0], v[1], v[2]}, q.normalized().toRotationMatrix()),
+               b * placed(point, Matrix3d::Identity()), joint);
 }
 
 const std::set<std::string> known_of_connect =
@@ -82,12 +69,14 @@ void readEquality(const Element& element, const MjcfDefaults& defaults, const Mj
             "couples what it names ({}), as a gear does, which a scenario has no words for, expected connect or weld",
             shown(kind)));
   listUnknownAttributes(element, kind == "weld" ? known_of_weld : known_of_connect, graph.assumptions);
-  GraphJoint joint = jointAt(element, name, kind == "connect" ? JointKind::ball : JointKind::fixed);
+  const std::string scale = attribute(element, "torquescale");
+  const bool holds_turn = kind == "weld" && (scale.empty() || numberOf(element, scale, "torquescale") != 0);
+  GraphJoint joint = jointAt(element, name, holds_turn ? JointKind::fixed : JointKind::ball);
   joint.closure = true;
   if (const std::string site = attribute(element, "site1"); !site.empty())
-    joinSites(element, site, named, joint, graph);
+    joinSites(element, site, named, joint);
   else
-    joinBodies(element, named, joint, graph);
+    joinBodies(element, named, graph, joint);
   graph.joints.push_back(joint);
 }
 
@@ -110,6 +99,9 @@ void readActuator(const Element& element, const MjcfDefaults& defaults, const Mj
   else
     graph.motors.push_back(joint.name);
   joint.driven = true;
+  for (const char* more : {"armature", "damping"})
+    if (const std::string value = get(more); !value.empty() && numberOf(element, value, more) != 0)
+      refuse(element, fmt::format("{} {} of an actuator, which is not read; expected it at the joint", more, value));
   const std::string gear = get("gear");
   const double ratio = gear.empty() ? 1 : numbersOf(element, gear, 0, "gear").at(0);
   if (ratio == 0) refuse(element, "a gear of zero, expected another");

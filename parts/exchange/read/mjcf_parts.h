@@ -54,6 +54,13 @@ void readMjcfOptions(const Element& root, ModelGraph& graph);
 Matrix3d mjcfOrientation(const Element& element, const MjcfCompiler& compiler,
                          const std::function<std::string(const char*)>& get);
 
+/// A shape between two points: its frame, and half of its length.
+struct MjcfFromTo {
+  Eigen::Isometry3d frame;
+  double half = 0;
+};
+MjcfFromTo mjcfFromTo(const Element& element, const std::string& points);
+
 /// Adds a geom's mass to a body. `at` is the geom's parent frame in the world; `get` returns its attributes. Throws
 /// ImportError for shapes whose inertia is in another file.
 void addGeom(const Element& geom, const MjcfCompiler& compiler, const Eigen::Isometry3d& at,

@@ -21,18 +21,23 @@ std::string oneOf(const Element& at, const char* name, std::initializer_list<con
   refuse(at, fmt::format("{} '{}' is unknown, expected one of {}", name, shown(value), fmt::join(words, ", ")));
 }
 
-Matrix3d aboutAxis(char axis, double angle) {
-  const int k = std::tolower(static_cast<unsigned char>(axis)) - 'x';
-  return Eigen::AngleAxisd(angle, Vector3d::Unit(k)).toRotationMatrix();
-}
-
 Matrix3d fromEuler(const Vector3d& angles, const std::string& sequence) {
   Matrix3d out = Matrix3d::Identity();
   for (std::size_t k = 0; k < 3; ++k) {
-    const Matrix3d turn = aboutAxis(sequence[k], angles(static_cast<Eigen::Index>(k)));
-    out = std::islower(static_cast<unsigned char>(sequence[k])) != 0 ? Matrix3d(out * turn) : Matrix3d(turn * out);
+    const int axis = std::tolower(static_cast<unsigned char>(sequence[k]));
+    const Matrix3d turn(Eigen::AngleAxisd(angles(static_cast<Eigen::Index>(k)), Vector3d::Unit(axis - 'x')));
+    out = sequence[k] == axis ? Matrix3d(out * turn) : Matrix3d(turn * out);
   }
   return out;
+}
+
+/// Returns the smallest rotation that takes the z axis to a unit vector; half a turn about x if it is opposite.
+/// MuJoCo's own formula, as others choose another axis near half a turn.
+Matrix3d fromZTo(const Vector3d& z) {
+  const Vector3d axis = Vector3d::UnitZ().cross(z);
+  const double squared = axis.squaredNorm(), sine = squared < 1e-14 ? 0 : std::sqrt(squared);  // below it MuJoCo has 0
+  return Eigen::AngleAxisd(std::atan2(sine, z.z()), sine == 0 ? Vector3d::UnitX() : Vector3d(axis / sine))
+      .toRotationMatrix();
 }
 
 struct Shape {
@@ -146,7 +151,7 @@ void readMjcfOptions(const Element& root, ModelGraph& graph) {
     for (const char* name : {"density", "viscosity"})
       if (const std::string value = attribute(option, name); !value.empty() && numberOf(option, value, name) != 0)
         refuse(option, fmt::format("{} {}: forces of a fluid, which a scenario has no words for", name, value));
-    const Element* flag = option.FirstChildElement("flag");
+    const Element* flag = onlyChild(option, "flag");
     if (flag == nullptr) return;
     is_off = is_off || attribute(*flag, "gravity") == "disable";
     for (const char* name : {"equality", "constraint", "passive", "spring", "damper", "frictionloss", "actuation"})
@@ -187,17 +192,21 @@ Matrix3d mjcfOrientation(const Element& element, const MjcfCompiler& compiler,
     return fromEuler({compiler.angle(angles.x()), compiler.angle(angles.y()), compiler.angle(angles.z())},
                      compiler.euler);
   }
-  if (what == "zaxis") {
-    const Vector3d z = directionOf(element, vectorOf(element, text, what), what);
-    // This is the smallest rotation that takes z there; it is half a turn about x if z is opposite.
-    return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), z).toRotationMatrix();
-  }
+  if (what == "zaxis") return fromZTo(directionOf(element, vectorOf(element, text, what), what));
   const std::vector<double> v = numbersOf(element, text, 6, what);
   const Vector3d x = directionOf(element, Vector3d(v[0], v[1], v[2]), what), y_given(v[3], v[4], v[5]);
   const Vector3d y = directionOf(element, y_given - x * x.dot(y_given), what);
   Matrix3d out;
   out << x, y, x.cross(y);
   return out;
+}
+
+MjcfFromTo mjcfFromTo(const Element& element, const std::string& points) {
+  const std::vector<double> v = numbersOf(element, points, 6, "fromto");
+  const Vector3d from(v[0], v[1], v[2]), to(v[3], v[4], v[5]);
+  // MuJoCo points the shape's z axis from the second point to the first.
+  const Vector3d z = directionOf(element, from - to, "fromto");
+  return {placed((from + to) / 2, fromZTo(z)), (to - from).norm() / 2};
 }
 
 void addGeom(const Element& geom, const MjcfCompiler& compiler, const Eigen::Isometry3d& at,
@@ -223,16 +232,12 @@ void addGeom(const Element& geom, const MjcfCompiler& compiler, const Eigen::Iso
   if (from_to.empty()) {
     turn = mjcfOrientation(geom, compiler, get);
   } else {
-    const std::vector<double> v = numbersOf(geom, from_to, 6, "fromto");
-    const Vector3d from(v[0], v[1], v[2]), to(v[3], v[4], v[5]);
-    center = (from + to) / 2;
-    // MuJoCo points the shape's z axis from the second point to the first.
-    turn = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), directionOf(geom, from - to, "fromto"))
-               .toRotationMatrix();
+    const MjcfFromTo between = mjcfFromTo(geom, from_to);
+    center = between.frame.translation();
+    turn = between.frame.linear();
     if (size.empty()) refuse(geom, "no size, expected a radius");
-    const double half = (to - from).norm() / 2;
-    size = type == "box" || type == "ellipsoid" ? std::vector<double>{size[0], size[0], half}
-                                                : std::vector<double>{size[0], half};
+    size = type == "box" || type == "ellipsoid" ? std::vector<double>{size[0], size[0], between.half}
+                                                : std::vector<double>{size[0], between.half};
   }
   const Shape shape = shapeOf(geom, type, size);
   const double mass = mass_text.empty() ? per_volume * shape.volume : given;

@@ -20,6 +20,11 @@ const std::set<std::string> known_in_joint = wordsOf(
     "pose parent child axis axis2 thread_pitch screw_thread_pitch gearbox_ratio gearbox_reference_body sensor frame "
     "plugin");
 const std::set<std::string> known_in_axis = wordsOf("xyz initial_position use_parent_model_frame dynamics limit mimic");
+const std::set<std::string> known_in_world = wordsOf(
+    "gravity physics frame model joint include light plugin gui scene audio atmosphere wind magnetic_field "
+    "spherical_coordinates road");
+const std::set<std::string> known_in_model =
+    wordsOf("static self_collide allow_auto_disable enable_wind pose link model joint frame include gripper plugin");
 constexpr int newest_minor = 12;
 
 class SdfReader {
@@ -48,7 +53,10 @@ class SdfReader {
     const Element& top = world == nullptr ? root_ : *world;
     if (world != nullptr && world->NextSiblingElement("world") != nullptr)
       refuse(*world->NextSiblingElement("world"), "a second world, expected one");
-    readGravity(top);
+    readSdfGravity(top, graph_);
+    if (const Element* state = top.FirstChildElement("state"))
+      refuse(*state, "gives models another pose, which not every reader takes; expected a file without it");
+    listUnknown(top, known_in_world, graph_.assumptions);
     refuseSdfIncludes(top, graph_.assumptions);
     eachChild(top, "frame", [&](const Element& e) { addFrame(e, SdfFrames::world); });
     eachChild(top, "model", [&](const Element& e) { addModel(e, SdfFrames::world, false); });
@@ -68,17 +76,6 @@ class SdfReader {
   }
 
  private:
-  void readGravity(const Element& top) {
-    const Element* gravity = top.FirstChildElement("gravity");
-    const Element* physics = top.FirstChildElement("physics");
-    if (gravity == nullptr && physics != nullptr) gravity = physics->FirstChildElement("gravity");
-    if (gravity != nullptr)
-      graph_.gravity = vectorOf(*gravity, textOf(*gravity), "gravity");
-    else
-      graph_.assumptions.push_back({"The file gives no gravity: SDF's default of 9.8 m/s² along −z was taken",
-                                    fmt::format("<{}>", top.Name()), 9.8, "m/s²"});
-  }
-
   /// Returns a frame's name in an attribute. Refuses one before version 1.7, because readers differ in whether they
   /// heed it.
   std::string frameNamed(const Element* element, const char* name) const {
@@ -124,6 +121,7 @@ class SdfReader {
   void addModel(const Element& element, std::size_t scope, bool fixed) {
     const std::string name = requiredAttribute(element, "name"), placement = attribute(element, "placement_frame");
     refuseSdfIncludes(element, graph_.assumptions);
+    listUnknown(element, known_in_model, graph_.assumptions);
     const std::size_t model = frames_.add(name, frameOf(element, scope, Kind::model));
     models_.push_back(model);
     listPlugins(element, name, graph_.assumptions);
@@ -136,6 +134,9 @@ class SdfReader {
     eachChild(element, "model", [&](const Element& e) { addModel(e, model, fixed); });
     eachChild(element, "frame", [&](const Element& e) { addFrame(e, model); });
     eachChild(element, "joint", [&](const Element& e) { joints_.push_back(addJoint(e, model)); });
+    std::set<std::string> coupled = known_in_model;
+    coupled.insert("drake:ball_constraint");
+    refuseCouplings(element, coupled, [&](const std::string& word) { return frames_.has(model, word); });
     if (frames_[model].body == SdfFrames::none) takeFirstLink(element, model);
     if (const std::string canonical = attribute(element, "canonical_link"); !canonical.empty())
       frames_[model].body = frames_[frames_.find(element, model, canonical, "canonical_link")].body;

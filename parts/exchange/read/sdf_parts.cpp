@@ -22,7 +22,7 @@ void takeLimits(const Element& joint_element, const Element& axis, GraphJoint& j
            fmt::format(
                "lower and upper limit are both {}: it cannot move; expected a joint of type fixed, or limits apart",
                joint.lower));
-  if (joint.lower > joint.upper) joint.lower = -(joint.upper = std::numeric_limits<double>::infinity());
+  requireRange(joint_element, joint);
 }
 
 void takeDynamics(const Element& joint_element, const Element& dynamics, GraphJoint& joint) {
@@ -43,28 +43,6 @@ void requirePlain(const Element& link, const Element& inertial) {
     if (pose != nullptr && !attribute(*pose, name).empty())
       refuse(link,
              fmt::format("{} in the <pose> of <inertial>, which SDF does not allow: that is always in the link", name));
-}
-
-/// Returns a child's value, which is an attribute in URDF and text in SDF.
-std::string valueOf(const Element& element, const char* child, const char* of_urdf) {
-  const Element* found = element.FirstChildElement(child);
-  if (found == nullptr) return "";
-  const std::string value = attribute(*found, of_urdf);
-  return value.empty() ? textOf(*found) : value;
-}
-
-void addBall(const Element& element, ModelGraph& graph, const BodyByName& body) {
-  GraphJoint ball = jointAt(element, nameOr(element, "drake:ball_constraint"), JointKind::ball);
-  ball.closure = true;
-  const auto side = [&](const char* name, const char* point, std::size_t& index, Vector3d& centre) {
-    const std::string named = valueOf(element, name, "name"), at = valueOf(element, point, "value");
-    if (named.empty() || at.empty()) refuse(element, fmt::format("no <{}> or no <{}>, expected both", name, point));
-    index = body(element, named);
-    centre = graph.bodies[index].frame * vectorOf(element, at, point);
-  };
-  side("drake:ball_constraint_body_A", "drake:ball_constraint_p_AP", ball.parent, ball.centre);
-  side("drake:ball_constraint_body_B", "drake:ball_constraint_p_BQ", ball.child, ball.centre_of_child);
-  graph.joints.push_back(ball);
 }
 
 }  // namespace
@@ -213,10 +191,17 @@ void takeSdfMotion(const Element& joint_element, const Element& axis, bool endle
 void takeRange(const Element& limit, TextOfWord text, GraphJoint& joint) {
   for (const auto& [name, to] : {std::pair("lower", &joint.lower), std::pair("upper", &joint.upper)}) {
     const std::string word = text(limit, name);
-    if (word.empty() || word == "inf" || word == "-inf" || word == "+inf") continue;
-    const double value = numberOf(limit, word, name);
-    if (std::abs(value) < 1e16) *to = value;
+    if (word.empty()) continue;
+    const bool endless = word == "inf" || word == "-inf" || word == "+inf";
+    *to = endless ? HUGE_VAL : numberOf(limit, word, name, HUGE_VAL);
+    if (std::abs(*to) >= 1e16) *to = to == &joint.lower ? -HUGE_VAL : HUGE_VAL;
   }
+}
+
+void requireRange(const Element& element, const GraphJoint& joint) {
+  if (joint.lower > joint.upper)
+    refuse(element,
+           fmt::format("its lower limit, {}, is above its upper one, {}; expected it below", joint.lower, joint.upper));
 }
 
 void takeRubbing(const Element& joint_element, const Element& dynamics, TextOfWord text, GraphJoint& joint) {
@@ -261,24 +246,18 @@ void refuseSdfIncludes(const Element& scope, Assumptions& assumptions) {
   });
 }
 
-void readDrakeConstraints(const Element& model, ModelGraph& graph, const BodyByName& body) {
-  eachChild(model, "drake:ball_constraint", [&](const Element& e) { addBall(e, graph, body); });
-  eachChild(model, nullptr, [](const Element& e) {
-    const std::string name = e.Name();
-    const bool couples = name.rfind("drake:", 0) == 0 && name.find("_constraint") != std::string::npos;
-    if (name == "drake:linear_bushing_rpy" || (couples && name != "drake:ball_constraint"))
-      refuse(e, "which a scenario has no words for");
+void readSdfGravity(const Element& top, ModelGraph& graph) {
+  const Element* gravity = onlyChild(top, "gravity");
+  eachChild(top, "physics", [&](const Element& physics) {
+    const Element* own = onlyChild(physics, "gravity");
+    if (own != nullptr && gravity != nullptr) refuse(*own, "a second <gravity>, expected one");
+    if (own != nullptr) gravity = own;
   });
-}
-
-double drakeRotorInertia(const Element& element) {
-  const std::string rotor = valueOf(element, "drake:rotor_inertia", "value");
-  const std::string gear = valueOf(element, "drake:gear_ratio", "value");
-  if (rotor.empty()) return 0;
-  const double ratio = gear.empty() ? 1 : numberOf(element, gear, "drake:gear_ratio");
-  const double inertia = numberOf(element, rotor, "drake:rotor_inertia");
-  if (inertia < 0) refuse(element, fmt::format("a rotor's inertia of {}, expected none below zero", inertia));
-  return inertia * ratio * ratio;
+  if (gravity != nullptr)
+    graph.gravity = vectorOf(*gravity, textOf(*gravity), "gravity");
+  else
+    graph.assumptions.push_back({"The file gives no gravity: SDF's default of 9.8 m/s² along −z was taken",
+                                 fmt::format("<{}>", top.Name()), 9.8, "m/s²"});
 }
 
 }  // namespace ursula::exchange

@@ -30,6 +30,7 @@ class SdfFrames {
   SdfFrames();
   /// Adds a frame under its name to a scope. Throws ImportError if the name exists already.
   std::size_t add(const std::string& name, Frame frame);
+  bool has(std::size_t scope, const std::string& name) const { return names_[scope].count(name) != 0; }
   /// Finds "a::b", "__model__", "world". Throws ImportError if there is no such frame.
   std::size_t find(const Element& at, std::size_t scope, const std::string& name, const char* what) const;
 
@@ -64,6 +65,8 @@ void takeSdfMotion(const Element& joint_element, const Element& axis, bool endle
 
 /// Reads lower and upper. "inf" and numbers of 1e16 and more mean no limit.
 void takeRange(const Element& limit, TextOfWord text, GraphJoint& joint);
+/// Throws ImportError if the lower limit is above the upper one.
+void requireRange(const Element& element, const GraphJoint& joint);
 /// Reads damping and friction. Throws ImportError for one below zero.
 void takeRubbing(const Element& joint_element, const Element& dynamics, TextOfWord text, GraphJoint& joint);
 
@@ -73,6 +76,9 @@ void listPlugins(const Element& element, const std::string& of, Assumptions& ass
 
 /// Refuses a <velocity_decay> in `element` above zero. `factor` is the text of URDF's element for the same.
 void refuseSdfDecay(const Element& element, const std::string& factor = "");
+
+/// Reads the gravity of a world or, in older files, of its physics, and says SDF's default. Throws for a second one.
+void readSdfGravity(const Element& top, ModelGraph& graph);
 
 /// Refuses <include>, but for the usual light and floor of a world, which are listed.
 void refuseSdfIncludes(const Element& scope, Assumptions& assumptions);

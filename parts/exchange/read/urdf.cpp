@@ -32,8 +32,9 @@ Eigen::Isometry3d originOf(const Element& element) {
   return out;
 }
 
-const std::set<std::string> known_in_robot =
-    wordsOf("link joint loop_joint material transmission ros2_control gazebo mujoco sensor frame");
+const std::set<std::string> known_in_robot = wordsOf(
+    "link joint drake:joint loop_joint constraint drake:ball_constraint material transmission ros2_control gazebo "
+    "mujoco sensor frame");
 const std::set<std::string> known_in_urdf_link =
     wordsOf("inertial visual collision self_collision_checking contact sensor");
 
@@ -55,6 +56,8 @@ class UrdfReader {
     listUnknown(root_, known_in_robot, graph_.assumptions);
     eachChild(root_, "joint", [this](const Element& e) { takeJoint(e); });
     eachChild(root_, "drake:joint", [this](const Element& e) { takeJoint(e); });
+    refuseCouplings(root_, known_in_robot,
+                    [this](const std::string& word) { return links_.count(word) + joints_.count(word) != 0; });
     placeTree();
     for (const Element* element : elements_) readJoint(*element);
     readUrdfClosures(root_, file_, links_, graph_);
@@ -175,8 +178,10 @@ class UrdfReader {
     const std::string xyz = axis == nullptr ? "" : attribute(*axis, "xyz");
     if (axis != nullptr) listUnknownAttributes(*axis, {"xyz"}, graph_.assumptions);
     const Vector3d given = xyz.empty() ? Vector3d::UnitX() : vectorOf(*axis, xyz, "axis");
-    joint.axis = {Vector3d(at.linear() * directionOf(element, given, "axis")), Vector3d(at.linear().col(1))};
-    if (joint.kind == JointKind::universal) joint.axis[0] = at.linear().col(0);
+    // Other joints have no axis, whatever the file gives them; CAD writes zero for fixed ones.
+    const bool has_axis = joint.kind == JointKind::revolute || joint.kind == JointKind::prismatic;
+    joint.axis = {has_axis ? Vector3d(at.linear() * directionOf(element, given, "axis")) : at.linear().col(0),
+                  at.linear().col(1)};
     takeLimits(element, type, joint);
     index_of_.emplace(joint.name, graph_.joints.size());
     graph_.joints.push_back(joint);
@@ -184,12 +189,14 @@ class UrdfReader {
 
   void takeLimits(const Element& element, const std::string& type, GraphJoint& joint) {
     if (const Element* limit = onlyChild(element, "limit"); limit != nullptr && type != "continuous") {
-      takeRange(*limit, attribute, joint);
       // URDF's default for both is zero, so a joint that cannot move is one without given limits.
+      joint.lower = joint.upper = 0;
+      takeRange(*limit, attribute, joint);
+      requireRange(element, joint);
       if (joint.lower == joint.upper && !attribute(*limit, "lower").empty())
         graph_.assumptions.push_back(
             {"The file's limits hold this joint where it is; it was taken as free to move", joint.name});
-      if (!(joint.lower < joint.upper)) joint.lower = -(joint.upper = std::numeric_limits<double>::infinity());
+      if (joint.lower == joint.upper) joint.lower = -(joint.upper = std::numeric_limits<double>::infinity());
     }
     const Element* dynamics = onlyChild(element, "dynamics");
     if (dynamics == nullptr) return;
@@ -201,11 +208,15 @@ class UrdfReader {
   void readMotors() {
     eachChild(root_, "transmission", [this](const Element& e) {
       const Element* actuator = e.FirstChildElement("actuator");
+      for (const char* part : {"joint", "actuator"})
+        if (const Element* first = e.FirstChildElement(part);
+            first != nullptr && first->NextSiblingElement(part) != nullptr)
+          refuse(e, fmt::format("a second <{}>: it couples joints, which a scenario has no words for", part));
       eachChild(e, "joint", [&](const Element& of) {
         GraphJoint& joint = driven(of, attribute(of, "name"));
         if (actuator == nullptr) return;
         if (const double rotor = drakeRotorInertia(*actuator); rotor != 0) joint.rotor_inertia = rotor;
-        const Element* reduction = actuator->FirstChildElement("mechanicalReduction");
+        const Element* reduction = onlyChild(*actuator, "mechanicalReduction");
         const double ratio = reduction == nullptr || textOf(*reduction).empty()
                                  ? 1
                                  : numberOf(*reduction, textOf(*reduction), "mechanicalReduction");

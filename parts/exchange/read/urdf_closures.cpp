@@ -4,70 +4,12 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "base/text.h"
-#include "base/text_source.h"
 #include "parts/exchange/read/sdf_parts.h"
 
 namespace ursula::exchange {
 namespace {
-
-/// The few forms of YAML in a robot.yaml: `key: word`, `key: [a, [b, c]]`, and lists of `- a` below a key. Nested lists
-/// are flattened.
-using SmallYaml = std::map<std::string, std::vector<std::string>>;
-
-/// Splits at brackets, commas, list dashes and white space; drops quotes.
-void appendWords(const std::string& text, std::vector<std::string>& out) {
-  std::string word;
-  char quote = 0;
-  const auto end = [&] {
-    if (!word.empty() && word != "-") out.push_back(word);
-    word.clear();
-  };
-  for (const char c : text) {
-    if (quote != 0) {
-      if (c == quote)
-        quote = 0;
-      else
-        word += c;
-    } else if (c == '\'' || c == '"') {
-      quote = c;
-    } else if (c == '#') {
-      break;
-    } else if (c == '[' || c == ']' || c == ',' || c == ' ' || c == '\t' || c == '\r') {
-      end();
-    } else {
-      word += c;
-    }
-  }
-  end();
-}
-
-/// Throws ImportError for any other form.
-SmallYaml readSmallYaml(const std::string& text, const std::string& name) {
-  SmallYaml out;
-  std::istringstream lines(text);
-  std::string line, key;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    const std::size_t from = line.find_first_not_of(" \t\r");
-    if (from == std::string::npos || line[from] == '#' || line.compare(0, 3, "---") == 0) continue;
-    if (line.find_first_of("{&*|>!") != std::string::npos)
-      throw ImportError(
-          fmt::format("{}:{}: '{}' is neither a list nor a word, expected `key: [a, b]`", name, number, shown(line)));
-    const std::size_t colon = line.find(':');
-    if (from == 0 && line[0] != '-' && line[0] != '[' && colon != std::string::npos) {
-      key = line.substr(0, colon);
-      out[key];
-      appendWords(line.substr(colon + 1), out[key]);
-    } else if (key.empty()) {
-      throw ImportError(fmt::format("{}:{}: '{}' is of no key, expected `key: [a, b]`", name, number, shown(line)));
-    } else {
-      appendWords(line, out[key]);
-    }
-  }
-  return out;
-}
 
 const std::map<std::string, JointKind> kinds_of_closure = {{"ball", JointKind::ball},
                                                            {"fixed", JointKind::fixed},
@@ -88,20 +30,30 @@ class Closer {
   void isaac(const Element& element) {
     const std::string type = requiredAttribute(element, "type");
     if (type != "spherical") refuse(element, fmt::format("a {} loop joint, expected a spherical one", shown(type)));
-    // Isaac Sim's own documentation writes link1 twice.
-    const Element* first = element.FirstChildElement("link1");
-    const Element* second = element.FirstChildElement("link2");
-    if (first != nullptr && second == nullptr) second = first->NextSiblingElement("link1");
-    if (first == nullptr || second == nullptr) refuse(element, "no <link1> or no <link2>, expected both");
-    GraphJoint ball = closure(element, JointKind::ball);
-    const auto side = [&](const Element& e, std::size_t& body, Vector3d& centre) {
-      body = link(e, requiredAttribute(e, "link"));
-      const std::string xyz = attribute(e, "xyz");
-      centre = graph_.bodies[body].frame * (xyz.empty() ? Vector3d::Zero() : vectorOf(e, xyz, "xyz"));
+    std::vector<const Element*> ends;
+    eachChild(element, nullptr, [&](const Element& e) {
+      // Isaac Sim's own documentation writes link1 twice.
+      if (std::string(e.Name()) == "link1" || std::string(e.Name()) == "link2") ends.push_back(&e);
+    });
+    if (ends.size() != 2) refuse(element, fmt::format("{} of <link1> and <link2>, expected both", ends.size()));
+    const auto frame = [&](const Element& e) { return frameOn(e, attribute(e, "xyz"), attribute(e, "rpy")); };
+    join(element, JointKind::ball, frame(*ends[0]), frame(*ends[1]));
+  }
+
+  /// Reads the proposed <constraint>: parent_origin in the parent and child_origin in the child are one frame.
+  void constraint(const Element& element) {
+    const std::string type = requiredAttribute(element, "type");
+    if (type != "spherical" && type != "fixed")
+      refuse(element, fmt::format("a {} constraint, expected a spherical or a fixed one", shown(type)));
+    listUnknown(element, {"parent", "parent_origin", "child", "child_origin"}, graph_.assumptions);
+    const auto frame = [&](const char* side, const char* origin) {
+      const Element* at = onlyChild(element, side);
+      const Element* of = onlyChild(element, origin);
+      if (at == nullptr) refuse(element, fmt::format("no <{}>, expected one", side));
+      return of == nullptr ? frameOn(*at, "", "") : frameOn(*at, attribute(*of, "xyz"), attribute(*of, "rpy"));
     };
-    side(*first, ball.parent, ball.centre);
-    side(*second, ball.child, ball.centre_of_child);
-    graph_.joints.push_back(ball);
+    join(element, type == "fixed" ? JointKind::fixed : JointKind::ball, frame("parent", "parent_origin"),
+         frame("child", "child_origin"));
   }
 
   /// Reads the joint as in SDF 1.7, to which URDF is converted today: the pose is in the child, the axis in the joint's
@@ -115,14 +67,19 @@ class Closer {
     GraphJoint joint = closure(element, kind->second);
     joint.parent = link(element, childText(element, "parent"));
     joint.child = link(element, childText(element, "child"));
-    Eigen::Isometry3d at = graph_.bodies[joint.child].frame;
-    if (const std::string pose = childText(element, "pose"); !pose.empty()) {
-      const std::vector<double> v = numbersOf(element, pose, 6, "<pose>");
-      at = at * placed({v[0], v[1], v[2]}, rollPitchYaw({v[3], v[4], v[5]}));
-    }
+    const Element* pose = onlyChild(element, "pose");
+    const Element* axis = onlyChild(element, "axis");
+    const Element* given_xyz = axis == nullptr ? nullptr : onlyChild(*axis, "xyz");
+    for (const auto& [of, name] :
+         {std::pair(pose, "relative_to"), std::pair(pose, "frame"), std::pair(given_xyz, "expressed_in")})
+      if (of != nullptr && !attribute(*of, name).empty())
+        refuse(element,
+               fmt::format("{}='{}', which is not read in <gazebo>, expected none", name, shown(attribute(*of, name))));
+    if (axis != nullptr && axis->FirstChildElement("use_parent_model_frame") != nullptr)
+      refuse(element, "use_parent_model_frame, which SDF 1.7 has no more, expected an axis in the joint's frame");
+    const Eigen::Isometry3d at = graph_.bodies[joint.child].frame * sdfPoseOf(element);
     joint.centre = joint.centre_of_child = at.translation();
     if (joint.kind == JointKind::revolute || joint.kind == JointKind::prismatic) {
-      const Element* axis = element.FirstChildElement("axis");
       const std::string xyz = axis == nullptr ? "" : childText(*axis, "xyz");
       if (xyz.empty()) refuse(element, "no <axis> with <xyz>, expected one");
       const Vector3d given = directionOf(element, vectorOf(element, xyz, "<xyz>"), "<xyz>");
@@ -132,13 +89,14 @@ class Closer {
             {"The axis is taken in the joint's frame, as SDF 1.7 has it; in the model's, as before 1.5, it would turn "
              "by this",
              joint.name, std::acos(std::clamp(joint.axis[0].dot(given), -1.0, 1.0)), "rad"});
+      takeSdfMotion(element, *axis, type == "continuous", joint, graph_.assumptions);
     }
     graph_.joints.push_back(joint);
   }
 
   /// Reads `closed_loop: [[A, B], …]`, `type: [3d, …]`, `name_mot: TEXT`.
   void yaml(const std::filesystem::path& file) {
-    SmallYaml text = readSmallYaml(readText(file, {1 << 20, "robot.yaml"}), file.filename().string());
+    SmallYaml text = readSmallYaml(file);
     const std::vector<std::string> types = text["type"], ends = text["closed_loop"];
     if (ends.size() % 2 != 0) throw ImportError("robot.yaml: closed_loop has an odd number of frames, expected pairs");
     for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
@@ -182,17 +140,42 @@ class Closer {
     return out;
   }
 
+  struct FrameOn {
+    std::size_t body;
+    Eigen::Isometry3d at;  ///< in the world
+  };
+
+  /// Returns the frame on the link that `element` names.
+  FrameOn frameOn(const Element& element, const std::string& xyz, const std::string& rpy) const {
+    const std::size_t body = link(element, requiredAttribute(element, "link"));
+    const Vector3d position = xyz.empty() ? Vector3d::Zero() : vectorOf(element, xyz, "xyz");
+    const Vector3d angles = rpy.empty() ? Vector3d::Zero() : vectorOf(element, rpy, "rpy");
+    return {body, graph_.bodies[body].frame * placed(position, rollPitchYaw(angles))};
+  }
+
+  void join(const Element& element, JointKind kind, const FrameOn& parent, const FrameOn& child) {
+    GraphJoint joint = closure(element, kind);
+    joint.parent = parent.body;
+    joint.child = child.body;
+    joinFrames(parent.at, child.at, joint);
+    graph_.joints.push_back(joint);
+  }
+
   void pair(const std::string& a, const std::string& b, JointKind kind, const char* from) {
-    for (const std::string& name : {a, b})
-      if (links_.count(name) == 0) throw ImportError(fmt::format("{}: no link has the name '{}'", from, shown(name)));
+    // Pinocchio's frames are links, and joints, which are at their children.
+    const auto body = [&](const std::string& name) {
+      if (const auto found = links_.find(name); found != links_.end()) return found->second;
+      for (const GraphJoint& joint : graph_.joints)
+        if (joint.name == name) return joint.child;
+      throw ImportError(fmt::format("{}: no link and no joint has the name '{}'", from, shown(name)));
+    };
     GraphJoint joint;
     joint.name = a + ":" + b;
     joint.kind = kind;
     joint.closure = true;
-    joint.parent = links_.at(a);
-    joint.child = links_.at(b);
-    joint.centre = graph_.bodies[joint.parent].frame.translation();
-    joint.centre_of_child = graph_.bodies[joint.child].frame.translation();
+    joint.parent = body(a);
+    joint.child = body(b);
+    joinFrames(graph_.bodies[joint.parent].frame, graph_.bodies[joint.child].frame, joint);
     joint.line = graph_.bodies[joint.child].line;
     graph_.assumptions.push_back(
         {fmt::format("These frames are joined, {}, as {}", from, kind == JointKind::ball ? "a ball" : "one body"),
@@ -236,16 +219,18 @@ void readUrdfClosures(const Element& robot, const std::filesystem::path& file, c
   const auto found = [&] { return graph.joints.size() > before; };
   readDrakeConstraints(robot, graph, [&](const Element& at, const std::string& name) { return closer.link(at, name); });
   const auto isaac = [&](Closer& by) { eachChild(robot, "loop_joint", [&](const Element& e) { by.isaac(e); }); };
+  const auto proposed = [&](Closer& by) {
+    eachChild(robot, "constraint", [&](const Element& e) { by.constraint(e); });
+  };
   const auto gazebo = [&](Closer& by) {
     eachChild(robot, "gazebo",
               [&](const Element& e) { eachChild(e, "joint", [&](const Element& joint) { by.gazebo(joint); }); });
   };
-  const std::size_t after_drake = graph.joints.size();
-  if (!found()) isaac(closer);
-  const std::size_t after_isaac = graph.joints.size();
-  if (!found()) gazebo(closer);
-  if (after_drake > before) passOver(graph, links, before, isaac);
-  if (after_isaac > before) passOver(graph, links, before, gazebo);
+  for (const std::function<void(Closer&)>& read : std::vector<std::function<void(Closer&)>>{isaac, proposed, gazebo})
+    if (found())
+      passOver(graph, links, before, read);
+    else
+      read(closer);
   const std::filesystem::path yaml = file.parent_path() / "robot.yaml";
   std::error_code none;
   if (!found() && std::filesystem::is_regular_file(yaml, none)) closer.yaml(yaml);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -12,9 +13,15 @@ namespace ursula::exchange {
 /// Links of a URDF by name, as indices of the graph's bodies.
 using UrdfLinks = std::unordered_map<std::string, std::size_t>;
 
+/// The few forms of YAML in a robot.yaml: `key: word`, `key: [a, [b, c]]`, and lists of `- a` below a key. Nested lists
+/// are flattened.
+using SmallYaml = std::map<std::string, std::vector<std::string>>;
+/// Reads a file beside the model. Throws ImportError for any other form, and for a link that leads out of its folder.
+SmallYaml readSmallYaml(const std::filesystem::path& file);
+
 /// Reads the closures of the tree's loops from the first available source: Drake's ball constraints, Isaac Sim's loop
-/// joints, SDF joints in <gazebo>, robot.yaml next to the file, links named closing_NAME_1 and closing_NAME_2. Isaac
-/// Sim's and Gazebo's may repeat those of an earlier source; other ones are refused.
+/// joints, the proposed <constraint>, SDF joints in <gazebo>, robot.yaml next to the file, links named closing_NAME_1
+/// and closing_NAME_2. Isaac Sim's and Gazebo's may repeat those of an earlier source; other ones are refused.
 void readUrdfClosures(const Element& robot, const std::filesystem::path& file, const UrdfLinks& links,
                       ModelGraph& graph);
 

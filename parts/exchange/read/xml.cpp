@@ -121,8 +121,14 @@ std::string requiredAttribute(const Element& element, const char* name) {
 }
 
 std::string textOf(const Element& element) {
-  const char* found = element.GetText();
-  return found == nullptr ? "" : trimmed(found);
+  const tinyxml2::XMLText* found = nullptr;
+  for (const tinyxml2::XMLNode* node = element.FirstChild(); node != nullptr; node = node->NextSibling()) {
+    if (node->ToComment() != nullptr) continue;
+    if (node->ToText() == nullptr || found != nullptr)
+      refuse(element, "a text in pieces, of which readers take different ones, expected one text");
+    found = node->ToText();
+  }
+  return found == nullptr ? "" : trimmed(found->Value());
 }
 
 std::string childText(const Element& element, const char* name) {
@@ -137,12 +143,15 @@ const Element* onlyChild(const Element& element, const char* name) {
   return child;
 }
 
-std::vector<double> numbersOf(const Element& at, std::string_view text, std::size_t count, const std::string& what) {
+std::vector<double> numbersOf(const Element& at, std::string_view text, std::size_t count, const std::string& what,
+                              double most) {
   std::vector<double> out;
   eachWord(text, [&](std::string_view word) {
     const LeadingNumber number = leadingNumber(word);
     if (number.length != word.size() || !std::isfinite(number.value))
       refuse(at, fmt::format("{} has '{}', expected finite decimal numbers", what, shown(word)));
+    if (std::abs(number.value) > most)
+      refuse(at, fmt::format("{} has {}, expected at most {:g} in size", what, shown(word), most));
     out.push_back(number.value);
     if (out.size() > most_numbers) refuse(at, fmt::format("{} has more than {} numbers", what, most_numbers));
   });
@@ -151,8 +160,8 @@ std::vector<double> numbersOf(const Element& at, std::string_view text, std::siz
   return out;
 }
 
-double numberOf(const Element& at, std::string_view text, const std::string& what) {
-  return numbersOf(at, text, 1, what)[0];
+double numberOf(const Element& at, std::string_view text, const std::string& what, double most) {
+  return numbersOf(at, text, 1, what, most)[0];
 }
 
 Vector3d vectorOf(const Element& at, std::string_view text, const std::string& what) {
@@ -188,7 +197,7 @@ std::set<std::string> wordsOf(const std::string& text) {
 void listUnknown(const Element& element, const std::set<std::string>& children, Assumptions& assumptions) {
   eachChild(element, nullptr, [&](const Element& child) {
     const std::string name = child.Name();
-    if (children.count(name) == 0 && name.find(':') == std::string::npos && assumptions.size() < most_unknown)
+    if (children.count(name) == 0 && name.find(':') == std::string::npos)
       assumptions.push_back(
           {fmt::format("Nothing is known of <{}>, which is left out", shown(name)), named(element), 1, "1"});
   });
@@ -196,9 +205,34 @@ void listUnknown(const Element& element, const std::set<std::string>& children, 
 
 void listUnknownAttributes(const Element& element, const std::set<std::string>& attributes, Assumptions& assumptions) {
   for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next())
-    if (attributes.count(a->Name()) == 0 && assumptions.size() < most_unknown)
+    if (attributes.count(a->Name()) == 0)
       assumptions.push_back({fmt::format("Nothing is known of the attribute {}, which is left out", shown(a->Name())),
                              named(element), 1, "1"});
+}
+
+void refuseCouplings(const Element& element, const std::set<std::string>& children,
+                     const std::function<bool(const std::string&)>& is_machines) {
+  static const std::set<std::string> harmless =
+      wordsOf("group group_state disable_collisions drake:collision_filter_group");
+  std::set<std::string> found;
+  const std::function<void(const Element&)> gather = [&](const Element& e) {
+    const auto take = [&](const char* text) {
+      if (text != nullptr && is_machines(trimmed(text))) found.insert(trimmed(text));
+    };
+    for (const tinyxml2::XMLAttribute* a = e.FirstAttribute(); a != nullptr; a = a->Next()) take(a->Value());
+    take(e.GetText());
+    eachChild(e, nullptr, gather);
+  };
+  eachChild(element, nullptr, [&](const Element& child) {
+    if (children.count(child.Name()) != 0 || harmless.count(child.Name()) != 0) return;
+    found.clear();
+    gather(child);
+    if (found.size() >= 2)
+      refuse(child,
+             fmt::format("nothing is known of this element, which names {} and {} and may couple them; expected a "
+                         "file without it, or one that says it in known words",
+                         shown(*found.begin()), shown(*std::next(found.begin()))));
+  });
 }
 
 std::string nameOr(const Element& element, const std::string& kind) {
@@ -212,6 +246,12 @@ GraphJoint jointAt(const Element& element, const std::string& name, JointKind ki
   out.line = element.GetLineNum();
   out.kind = kind;
   return out;
+}
+
+void joinFrames(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, GraphJoint& joint) {
+  joint.centre = a.translation();
+  joint.centre_of_child = b.translation();
+  if (joint.kind == JointKind::fixed) joint.turn = a.linear() * b.linear().transpose();
 }
 
 void takeInertia(const Element& inertia, TextOfWord text, const Eigen::Isometry3d& at,

@@ -21,7 +21,8 @@ using Element = tinyxml2::XMLElement;
 constexpr std::size_t most_model_bytes = std::size_t{8} << 20;
 /// No list of numbers in a model is longer.
 constexpr std::size_t most_numbers = 100;
-constexpr std::size_t most_unknown = 200;  ///< the longest list of unknown names
+/// No length, angle, mass or moment is larger; limits may be.
+constexpr double most_value = 1e12;
 constexpr std::size_t most_tags = 25'000, most_attributes = 100'000, most_attributes_of_one = 100;
 
 /// Refuses a text beyond these bounds, and one that declares an entity. Throws ImportError.
@@ -36,16 +37,18 @@ std::string named(const Element& element);
 /// Returns an attribute without surrounding white space; "" if it is missing.
 std::string attribute(const Element& element, const char* name);
 std::string requiredAttribute(const Element& element, const char* name);
-/// Returns the text of a child or of the element itself in the same way.
+/// Returns the text of a child or of the element itself in the same way. Throws for a text in pieces, as a comment or
+/// an element cuts it: readers differ in which piece they take.
 std::string textOf(const Element& element);
 std::string childText(const Element& element, const char* name);
 /// Returns the only child of that name, or null. Throws for a second one, as readers differ in which they take.
 const Element* onlyChild(const Element& element, const char* name);
 
 /// Reads finite decimal numbers separated by white space; `what` names them in the error. Throws unless there are
-/// `count` of them; 0 allows any number.
-std::vector<double> numbersOf(const Element& at, std::string_view text, std::size_t count, const std::string& what);
-double numberOf(const Element& at, std::string_view text, const std::string& what);
+/// `count` of them, up to `most` in size; 0 allows any number.
+std::vector<double> numbersOf(const Element& at, std::string_view text, std::size_t count, const std::string& what,
+                              double most = most_value);
+double numberOf(const Element& at, std::string_view text, const std::string& what, double most = most_value);
 Vector3d vectorOf(const Element& at, std::string_view text, const std::string& what);
 /// Reads "true", "1", "false" or "0". Throws for other words.
 bool truthOf(const Element& at, const std::string& text, const std::string& what);
@@ -66,10 +69,18 @@ std::set<std::string> wordsOf(const std::string& text);
 void listUnknown(const Element& element, const std::set<std::string>& children, Assumptions& assumptions);
 void listUnknownAttributes(const Element& element, const std::set<std::string>& attributes, Assumptions& assumptions);
 
+/// Refuses an unknown child element that names two links or joints, or more, in its attributes or texts: it may couple
+/// them. Words of SRDF, and of collisions, do not.
+void refuseCouplings(const Element& element, const std::set<std::string>& children,
+                     const std::function<bool(const std::string&)>& is_machines);
+
 /// Returns the element's name, or "KIND of line N" if it has none.
 std::string nameOr(const Element& element, const std::string& kind);
 /// Returns a joint of that name at the element's line.
 GraphJoint jointAt(const Element& element, const std::string& name, JointKind kind = JointKind::fixed);
+
+/// Lets a closure hold where two frames are one: `a` of its parent and `b` of its child, in the world.
+void joinFrames(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, GraphJoint& joint);
 
 /// Returns a value's text: that of a child in SDF (`childText`), of an attribute in URDF (`attribute`).
 using TextOfWord = std::string (*)(const Element&, const char*);

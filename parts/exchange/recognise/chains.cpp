@@ -72,9 +72,8 @@ class Net {
   template <class Name>
   static std::string listed(const std::vector<std::size_t>& indices, const Name& name_of) {
     std::vector<std::string> out;
-    for (std::size_t i = 0; i < indices.size() && i < 12; ++i) out.push_back(name_of(indices[i]));
-    if (indices.size() > 12) out.push_back(fmt::format("… {} more", indices.size() - 12));
-    return fmt::format("{}", fmt::join(out, ", "));
+    for (const std::size_t each : indices) out.push_back(name_of(each));
+    return exchange::listed(out);
   }
   bool isEnd(std::size_t i) const {
     return edges_[i].size() == 1 && !groups_.groups[i].fixed && groups_.groups[i].isFrame();
@@ -142,42 +141,18 @@ std::size_t findPlatform(const ModelGraph& graph, const Groups& groups, const Ne
                   net.names(hubs)));
 }
 
-void append(const ModelGraph& graph, std::size_t index, bool outwards, Chain& chain) {
-  const GraphJoint& joint = graph.joints[index];
-  const double sign = outwards ? 1 : -1;
-  Primitive primitive;
-  primitive.joint = index;
-  primitive.inner = outwards ? joint.centre : joint.centre_of_child;
-  primitive.outer = outwards ? joint.centre_of_child : joint.centre;
-  const auto add = [&](Primitive::Kind kind, const Vector3d& axis) {
-    primitive.kind = kind;
-    primitive.axis = sign * axis;
-    chain.primitives.push_back(primitive);
-  };
-  switch (joint.kind) {
-    case JointKind::revolute:
-      return add(Primitive::Kind::R, joint.axis[0]);
-    case JointKind::prismatic:
-      return add(Primitive::Kind::P, joint.axis[0]);
-    case JointKind::ball:
-      return add(Primitive::Kind::S, Vector3d::Zero());
-    case JointKind::universal:
-      add(Primitive::Kind::R, joint.axis[outwards ? 0 : 1]);
-      return add(Primitive::Kind::R, joint.axis[outwards ? 1 : 0]);
-    case JointKind::fixed:
-    case JointKind::free:
-      break;
-  }
-}
-
 /// Follows the chain from the base through one joint to the platform.
-Chain walk(const ModelGraph& graph, const Groups& groups, const Net& net, const Chains& ends, const Edge& first) {
+Chain walk(const ModelGraph& graph, Groups& groups, const Net& net, const Chains& ends, const Edge& first) {
   Chain chain;
   Edge edge = first;
   std::size_t from = ends.base;
+  Eigen::Isometry3d beyond = Eigen::Isometry3d::Identity();
   while (true) {
-    append(graph, edge.joint, groups.group_of[graph.joints[edge.joint].parent] == from, chain);
+    std::size_t k = chain.primitives.size();
+    append(graph, groups, edge.joint, groups.group_of[graph.joints[edge.joint].parent] == from, chain);
+    for (; k < chain.primitives.size(); ++k) meet(chain.primitives[k], edge.to == ends.platform, beyond);
     if (edge.to == ends.platform) return chain;
+    groups.groups[edge.to].move(beyond);
     const std::vector<Edge>& on = net.at(edge.to);
     const std::string where = fmt::format("the leg from joint {}", shown(graph.joints[first.joint].name));
     if (edge.to == ends.base) throw ImportError(where + " comes back to the base, expected the platform");
@@ -250,8 +225,7 @@ std::string Chain::place(const ModelGraph& graph) const {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-Chains findChains(const ModelGraph& graph, const Groups& groups, const ImportChoices& choices,
-                  Assumptions& assumptions) {
+Chains findChains(const ModelGraph& graph, Groups& groups, const ImportChoices& choices, Assumptions& assumptions) {
   Net net(graph, groups);
   net.trimFrames();
   Chains out;

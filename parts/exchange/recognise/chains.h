@@ -11,7 +11,9 @@ namespace ursula::exchange {
 /// Bodies without relative motion, which form one rigid body of the machine.
 struct Group {
   std::vector<std::size_t> bodies;  ///< in the order of the file
-  /// The name of its heaviest body. Bodies with three or more moving joints go first, as a payload may be heavier.
+  std::size_t foremost = 0;         ///< the body that stands where the file puts it, if a closure of the group is open
+  /// The name of its foremost body, the heaviest. Bodies with three or more moving joints go first, as a payload may be
+  /// heavier.
   std::string name;
   int line = 0;
   bool fixed = false;
@@ -27,6 +29,7 @@ struct Group {
   Matrix3d inertiaAbout(const Vector3d& point) const;
   /// Adds another body by the parallel-axis rule.
   void add(double mass_of_it, const Vector3d& center, const Matrix3d& inertia_of_it);
+  void move(const Eigen::Isometry3d& by);
 };
 
 /// Throws ImportError: "body NAME", then `what`.
@@ -40,8 +43,16 @@ void requireWeight(const Group& group);
 struct Groups {
   std::vector<Group> groups;
   std::vector<std::size_t> group_of;  ///< the group of each body
+  /// Displacement of each body in the world, from the file's initial pose to its place in the group.
+  std::vector<Eigen::Isometry3d> moved;
+  Assumptions contradictions;  ///< of closures that hold two bodies together in two ways, in m and rad, down to zero
 
   explicit Groups(const ModelGraph& graph);
+
+ private:
+  void unite(const ModelGraph& graph);
+  void place(const ModelGraph& graph);
+  void noteContradiction(const GraphJoint& joint, const Eigen::Isometry3d& off);
 };
 
 /// Returns the index of the named body. Throws ImportError with the nearest name if there is none.
@@ -52,7 +63,10 @@ struct Primitive {
   enum class Kind { R, P, S } kind = Kind::R;
   Vector3d axis = Vector3d::Zero();   ///< the coordinate grows as the outer part turns about it or slides along it
   Vector3d inner = Vector3d::Zero();  ///< the centre in the body towards the base
-  Vector3d outer = Vector3d::Zero();  ///< the centre in the body towards the platform
+  /// Centre and axis in the body towards the platform. Only at the platform they can differ from the inner ones.
+  Vector3d outer = Vector3d::Zero(), outer_axis = Vector3d::Zero();
+  /// Takes the outer body, in the world, to where the joint is closed on the inner one, at the file's coordinate.
+  Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
   std::size_t joint = 0;              ///< index in the graph
   std::optional<std::size_t> behind;  ///< group between it and the next; none within a joint and at the platform
 };
@@ -63,13 +77,32 @@ struct Chain {
   std::string place(const ModelGraph& graph) const;  ///< names of its joints, for messages
 };
 
+/// Adds a joint as both of its bodies have it in their groups.
+void append(const ModelGraph& graph, const Groups& groups, std::size_t index, bool outwards, Chain& chain);
+/// Takes the joint's inner side along by `beyond`, the displacement of the body that it is on, and makes that the one
+/// of the next body. Both sides then meet, unless the next body is the platform.
+void meet(Primitive& joint, bool at_platform, Eigen::Isometry3d& beyond);
+
 struct Chains {
   std::size_t base = 0, platform = 0;  ///< groups
   std::vector<Chain> legs;  ///< in the order of their motors, if the file or the user names them, then of their joints
 };
 
-/// Throws ImportError with the bodies and joints that prevent it.
-Chains findChains(const ModelGraph& graph, const Groups& groups, const ImportChoices& choices,
-                  Assumptions& assumptions);
+/// Returns up to twelve of the words, and how many more there are.
+std::string listed(const std::vector<std::string>& words);
+
+/// Lists the gaps of closures and `more`, those of a larger size than rounding. What exceeds 1e-3 of the machine's
+/// `size`, m, or 1e-3 rad is a warning.
+void sayGaps(const ModelGraph& graph, Assumptions more, double size, Assumptions& assumptions);
+/// Puts warnings first, and bounds the list and its texts: what is repeated stands once, with its count.
+Assumptions inOrder(Assumptions assumptions);
+
+/// Returns the number of freedoms of the bodies that moving joints connect with the base, at the initial pose; nothing
+/// if there are none or very many.
+std::optional<int> freedomsOf(const ModelGraph& graph, const Groups& groups, const ImportChoices& choices);
+
+/// Finds the legs, and moves the bodies of each so that its joints are closed from the base up to the platform's, which
+/// stays. Throws ImportError with the bodies and joints that prevent it.
+Chains findChains(const ModelGraph& graph, Groups& groups, const ImportChoices& choices, Assumptions& assumptions);
 
 }  // namespace ursula::exchange

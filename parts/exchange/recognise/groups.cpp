@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "base/text.h"
@@ -43,7 +44,29 @@ void Group::add(double mass_of_it, const Vector3d& center, const Matrix3d& inert
   mass += mass_of_it;
 }
 
-Groups::Groups(const ModelGraph& graph) : group_of(graph.bodies.size()) {
+void Group::move(const Eigen::Isometry3d& by) {
+  center_of_mass = by * center_of_mass;
+  inertia = (by.linear() * inertia * by.linear().transpose()).eval();
+}
+
+Groups::Groups(const ModelGraph& graph)
+    : group_of(graph.bodies.size()), moved(graph.bodies.size(), Eigen::Isometry3d::Identity()) {
+  unite(graph);
+  place(graph);
+  for (std::size_t i = 0; i < graph.bodies.size(); ++i) {
+    const GraphBody& body = graph.bodies[i];
+    Group& group = groups[group_of[i]];
+    Group own;
+    own.add(body.mass, body.center_of_mass, body.inertia);
+    own.move(moved[i]);
+    group.fixed = group.fixed || body.fixed;
+    group.weightless = group.weightless || (body.weightless && body.mass > 0);
+    group.add(own.mass, own.center_of_mass, own.inertia);
+    group.inertia_rounding += body.inertia_rounding;
+  }
+}
+
+void Groups::unite(const ModelGraph& graph) {
   std::vector<std::size_t> parents(graph.bodies.size());
   std::iota(parents.begin(), parents.end(), std::size_t{0});
   std::size_t ground = parents.size();
@@ -59,33 +82,64 @@ Groups::Groups(const ModelGraph& graph) : group_of(graph.bodies.size()) {
   for (const GraphJoint& joint : graph.joints)
     if (joint.kind == JointKind::fixed) join(joint.parent, joint.child);
   std::vector<std::size_t> index(parents.size(), parents.size());
-  // A group takes the name of its heaviest body, preferring bodies with three or more moving joints. A payload may be
-  // heavier than the platform.
-  std::vector<std::pair<bool, double>> foremost;
   std::vector<int> joints_of(graph.bodies.size(), 0);
   for (const GraphJoint& joint : graph.joints)
     if (joint.kind != JointKind::fixed) ++joints_of[joint.parent], ++joints_of[joint.child];
+  const auto rank = [&](std::size_t i) { return std::pair(joints_of[i] >= 3, graph.bodies[i].mass); };
   for (std::size_t i = 0; i < parents.size(); ++i) {
     const std::size_t root = rootOf(parents, i);
     if (index[root] == parents.size()) {
       index[root] = groups.size();
       groups.emplace_back();
-      foremost.emplace_back(false, -1);
+      groups.back().foremost = i;
     }
     group_of[i] = index[root];
     Group& group = groups[index[root]];
-    const GraphBody& body = graph.bodies[i];
     group.bodies.push_back(i);
-    if (const std::pair<bool, double> rank(joints_of[i] >= 3, body.mass); rank > foremost[index[root]]) {
-      foremost[index[root]] = rank;
-      group.name = body.name;
-      group.line = body.line;
-    }
-    group.fixed = group.fixed || body.fixed;
-    group.weightless = group.weightless || (body.weightless && body.mass > 0);
-    group.add(body.mass, body.center_of_mass, body.inertia);
-    group.inertia_rounding += body.inertia_rounding;
+    if (rank(i) > rank(group.foremost)) group.foremost = i;
+    group.name = graph.bodies[group.foremost].name;
+    group.line = graph.bodies[group.foremost].line;
   }
+}
+
+void Groups::noteContradiction(const GraphJoint& joint, const Eigen::Isometry3d& off) {
+  const char* what = "What holds these two bodies together contradicts itself by this; the first is believed";
+  const Vector3d& at = joint.centre_of_child;
+  contradictions.push_back({what, joint.name, (off * at - at).norm(), "m"});
+  contradictions.push_back({what, joint.name, Eigen::AngleAxisd(off.linear()).angle(), "rad"});
+}
+
+void Groups::place(const ModelGraph& graph) {
+  std::vector<std::vector<const GraphJoint*>> fixed_at(graph.bodies.size());
+  for (const GraphJoint& joint : graph.joints)
+    if (joint.kind == JointKind::fixed)
+      fixed_at[joint.parent].push_back(&joint), fixed_at[joint.child].push_back(&joint);
+  std::vector<char> placed(graph.bodies.size(), 0);
+  std::vector<std::size_t> order;
+  const auto start = [&](std::size_t body) {
+    if (placed[body] == 0) order.push_back(body);
+    placed[body] = 1;
+  };
+  // What stands still has its place; else the foremost body has it.
+  for (std::size_t i = 0; i < graph.bodies.size(); ++i)
+    if (graph.bodies[i].fixed) start(i);
+  for (const Group& group : groups)
+    if (std::none_of(group.bodies.begin(), group.bodies.end(), [&](std::size_t i) { return placed[i] != 0; }))
+      start(group.foremost);
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (const GraphJoint* joint : fixed_at[order[k]]) {
+      const bool outwards = joint->parent == order[k];
+      const std::size_t other = outwards ? joint->child : joint->parent;
+      const Eigen::Isometry3d at = !joint->isOpen()
+                                       ? moved[order[k]]
+                                       : moved[order[k]] * (outwards ? joint->closing() : joint->closing().inverse());
+      if (placed[other] == 0) {
+        moved[other] = at;
+        start(other);
+      } else if (outwards) {
+        noteContradiction(*joint, moved[other].inverse() * at);
+      }
+    }
 }
 
 std::size_t bodyNamed(const ModelGraph& graph, const std::string& name, const std::string& option) {

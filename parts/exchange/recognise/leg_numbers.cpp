@@ -57,7 +57,6 @@ class LegMaker {
     leg_.base_axis = task_.base.linear().transpose() * u_;
     leg_.platform_point = task_.platform.inverse() * joints_.back().outer;
     takeLegDynamics(task_, grows_along_, leg_);
-    sayGaps();
     return leg_;
   }
 
@@ -95,13 +94,7 @@ class LegMaker {
     const bool ball = leg_.spins;
     // With a ball at the base, joints_ are S, P, S: the slide is second.
     const Primitive& slide = joints_[ball ? 1 : 2];
-    if (ball) {
-      A_ = joints_[0].outer;
-      base_point_ = joints_[0].inner;
-    } else {
-      A_ = commonPerpendicular(joints_[0].outer, joints_[0].axis, joints_[1].inner, joints_[1].axis).at;
-      base_point_ = A_ + joints_[0].inner - joints_[0].outer;
-    }
+    base_point_ = A_ = ball ? joints_[0].inner : meetingOf(0);
     const double d = (B_ - A_).norm();
     if (!(d > 0)) refuseLeg("its ball is at its universal joint, expected a leg with a length");
     const Vector3d e = (B_ - A_) / d;
@@ -123,32 +116,27 @@ class LegMaker {
   }
 
   void makeKneed() {
-    A_ = commonPerpendicular(joints_[0].outer, joints_[0].axis, joints_[1].inner, joints_[1].axis).at;
-    base_point_ = A_ + joints_[0].inner - joints_[0].outer;
+    base_point_ = A_ = meetingOf(0);
     u_ = -joints_[0].axis;
     const Vector3d x = joints_[1].axis;
     requireParallel(joints_[2].axis, x,
                     fmt::format("the axes of {} and {}", shown(joint(1).name), shown(joint(2).name)));
-    const auto inPlane = [&](const Vector3d& point) { return point - x * x.dot(point - A_); };
-    const Vector3d R = inPlane(joints_[2].inner);
-    const Vector3d R_outer = R + joints_[2].outer - joints_[2].inner;
-    requireOnPlane(x.dot(B_ - A_) - x.dot(R_outer - R));
-    const Vector3d e = lengthAndDirection(R - A_, l_), along = lengthAndDirection(B_ - R_outer, s_);
+    const Vector3d R = joints_[2].inner - x * x.dot(joints_[2].inner - A_);
+    requireOnPlane(x.dot(B_ - A_));
+    const Vector3d e = lengthAndDirection(R - A_, l_), along = lengthAndDirection(B_ - R, s_);
     if (!(u_.cross(B_ - A_).norm() > 1e-9 * task_.size)) refuseLeg("its ball lies on its first axis");
     const Vector3d x_of_leg = u_.cross(B_ - A_).dot(x) > 0 ? x : Vector3d(-x);
     leg_.knee = kneeOf(along.dot(x_of_leg.cross(e)) < 0);
     grows_along_ = {-u_, x_of_leg, x_of_leg};
     proximal_frame_ = placedAt(A_, frameOf(x_of_leg, e));
-    distal_frame_ = placedAt(R_outer, frameOf(x_of_leg, along));
+    distal_frame_ = placedAt(R, frameOf(x_of_leg, along));
   }
 
   void makeCrank() {
     u_ = -joints_[0].axis;
-    Vector3d C, C_outer;
-    middleJoint(C, C_outer);
-    A_ = joints_[0].outer + u_ * u_.dot(C - joints_[0].outer);
-    base_point_ = A_ + joints_[0].inner - joints_[0].outer;
-    const Vector3d e = lengthAndDirection(C - A_, l_), along = lengthAndDirection(B_ - C_outer, s_);
+    const Vector3d C = middleJoint();
+    base_point_ = A_ = joints_[0].inner + u_ * u_.dot(C - joints_[0].inner);
+    const Vector3d e = lengthAndDirection(C - A_, l_), along = lengthAndDirection(B_ - C, s_);
     const Vector3d across = offAxis(along, u_);
     if (!(across.norm() > 1e-6)) refuseLeg("its rod lies along the crank's axis, expected it across");
     const Vector3d x_2 = u_.cross(across).normalized();
@@ -156,16 +144,15 @@ class LegMaker {
     leg_.knee = kneeOf(across.dot(u_.cross(e)) < 0);
     grows_along_ = {-u_, -u_, -x_2};
     proximal_frame_ = placedAt(A_, frameOf(u_.cross(e).normalized(), e));
-    distal_frame_ = placedAt(C_outer, frameOf(x_2, along));
+    distal_frame_ = placedAt(C, frameOf(x_2, along));
   }
 
   void makeCarriage() {
     u_ = joints_[0].axis;
-    Vector3d C, C_outer;
-    middleJoint(C, C_outer);
+    const Vector3d C = middleJoint();
     A_ = C;
-    base_point_ = C + (joints_[0].inner - joints_[0].outer) - joint(0).position * u_;
-    const Vector3d along = lengthAndDirection(B_ - C_outer, s_);
+    base_point_ = C - joint(0).position * u_;
+    const Vector3d along = lengthAndDirection(B_ - C, s_);
     const Vector3d across = offAxis(along, u_);
     if (!(across.norm() > 1e-6)) refuseLeg("its rod lies along the rail, expected it across");
     if (!leg_.spins) requireUniversalAlong(along);
@@ -174,17 +161,16 @@ class LegMaker {
     const Vector3d x = u_.cross(across).normalized();
     grows_along_ = {u_, -u_, x};
     proximal_frame_ = placedAt(C, to_world * fixedFrame(to_world.transpose() * u_));
-    distal_frame_ = placedAt(C_outer, frameOf(x, along));
+    distal_frame_ = placedAt(C, frameOf(x, along));
   }
 
-  /// Sets the centre of the joint between crank or carriage and rod, on the inner and on the outer body.
-  void middleJoint(Vector3d& inner, Vector3d& outer) const {
-    const Primitive &first = joints_[1], &second = joints_[2];
-    const Vector3d met =
-        leg_.spins ? first.inner : commonPerpendicular(first.outer, first.axis, second.inner, second.axis).at;
-    inner = leg_.spins ? first.inner : met + first.inner - first.outer;
-    outer = leg_.spins ? first.outer : met + second.outer - second.inner;
+  /// Returns the centre of the universal joint of the hinges `first` and the next one.
+  Vector3d meetingOf(std::size_t first) const {
+    const Primitive &a = joints_[first], &b = joints_[first + 1];
+    return commonPerpendicular(a.inner, a.axis, b.inner, b.axis).at;
   }
+  /// Returns the centre of the joint between crank or carriage and rod.
+  Vector3d middleJoint() const { return leg_.spins ? joints_[1].inner : meetingOf(1); }
 
   /// The universal joint's first axis is the crank's or the rail's; its second is perpendicular to the rod.
   void requireUniversalAlong(const Vector3d& rod) const {
@@ -230,14 +216,6 @@ class LegMaker {
       const bool outer = std::find(shape_.distal.begin(), shape_.distal.end(), group) != shape_.distal.end();
       freeSpin(task_, task_.groups.groups[group], outer ? distal_frame_ : proximal_frame_, false,
                outer ? leg_.distal : leg_.proximal);
-    }
-  }
-
-  void sayGaps() {
-    for (std::size_t k = 0; k < joints_.size(); ++k) {
-      const double gap = (joints_[k].outer - joints_[k].inner).norm();
-      if (gap > 1e-12 * task_.size && !(k > 0 && joints_[k].joint == joints_[k - 1].joint))
-        task_.assumptions.push_back({"This joint is open at the file's initial pose", joint(k).name, gap, "m"});
     }
   }
 

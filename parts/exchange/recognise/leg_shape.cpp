@@ -42,13 +42,16 @@ std::string knownChains() {
 
 class Shaper {
  public:
-  Shaper(const ModelGraph& graph, const Chain& chain, double size, const ImportChoices& choices)
+  Shaper(const ModelGraph& graph, const Groups& groups, const Chain& chain, double size, const ImportChoices& choices)
       : graph_(graph),
+        groups_(groups),
         line_(graph.joints[chain.primitives[0].joint].line),
         tokens_(chain.primitives),
         size_(size),
         choices_(choices) {
     shape_.place = chain.place(graph);
+    for (const Primitive& each : tokens_)
+      if (each.behind) leg_moment_ += largestMoment(groups.groups[*each.behind].inertiaAbout(tokens_[0].inner));
   }
 
   LegShape shape() {
@@ -67,8 +70,8 @@ class Shaper {
     if (best) return withUniversal(*best);
     refuseLeg(
         fmt::format("has the joints {} from the base, expected {} (U: two hinges that meet at right angles, S: a ball "
-                    "or three hinges through one point)",
-                    spaced(found), knownChains()));
+                    "or three hinges through one point){}",
+                    spaced(found), knownChains(), no_ball_));
   }
 
  private:
@@ -92,7 +95,7 @@ class Shaper {
   /// Merges three hinges that meet in one point and are not coplanar, from the platform inwards.
   void gatherBalls() {
     for (std::size_t end = tokens_.size(); end >= 3;) {
-      const std::optional<Vector3d> centre = commonPoint(end - 3);
+      const std::optional<Vector3d> centre = centreOf(end - 3);
       if (!centre) {
         --end;
         continue;
@@ -100,10 +103,11 @@ class Shaper {
       Primitive ball = tokens_[end - 3];
       ball.kind = Kind::S;
       ball.axis.setZero();
-      const Vector3d gap = tokens_[end - 1].outer - tokens_[end - 1].inner;
+      const Primitive& last = tokens_[end - 1];
+      const Vector3d from_last = *centre - last.inner;
       ball.inner = *centre;
-      ball.outer = *centre + gap;
-      ball.behind = tokens_[end - 1].behind;
+      ball.outer = last.outer + from_last + from_last.dot(last.axis) * (last.outer_axis - last.axis);
+      ball.behind = last.behind;
       requirePlain({end - 3, end - 2, end - 1}, "a ball");
       for (const std::size_t k : {end - 3, end - 2})
         if (tokens_[k].behind) noteCross(*tokens_[k].behind, *centre, end == tokens_.size(), end == 3);
@@ -116,24 +120,39 @@ class Shaper {
       if (tokens_[k].kind == Kind::S) requirePlain({k}, "a ball");
   }
 
-  std::optional<Vector3d> commonPoint(std::size_t first) const {
-    Matrix3d sum = Matrix3d::Zero(), axes;
-    Vector3d right = Vector3d::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Primitive& p = tokens_[first + k];
-      if (p.kind != Kind::R) return {};
-      axes.col(static_cast<Eigen::Index>(k)) = p.axis;
-      const Matrix3d across = Matrix3d::Identity() - p.axis * p.axis.transpose();
-      sum += across;
-      right += across * p.inner;
+  std::string nameOf(std::size_t token) const { return shown(graph_.joints[tokens_[token].joint].name); }
+
+  /// Returns the centre of a ball of three hinges. If they are none, keeps for a refusal why.
+  std::optional<Vector3d> centreOf(std::size_t first) {
+    const std::optional<HingePoint> met = hingePoint(&tokens_[first]);
+    if (!met) return {};
+    const std::string hinges =
+        fmt::format("; the axes of the hinges {}, {} and {}", nameOf(first), nameOf(first + 1), nameOf(first + 2));
+    if (met->off > tolerance() && no_ball_.empty())
+      no_ball_ = fmt::format(
+          "{} are no ball: they pass each other at up to {:.6g} m, {:.3g} of the machine's size, "
+          "expected within {:g} (--tolerance)",
+          hinges, met->apart, met->apart / size_, choices_.tolerance);
+    return met->off <= tolerance() && !hasLinkWithin(first, met->at, hinges) ? std::optional(met->at) : std::nullopt;
+  }
+
+  /// Returns whether a body between three hinges through one point is a link of the leg, and no cross: it is heavy, or
+  /// the body before it has no mass.
+  bool hasLinkWithin(std::size_t first, const Vector3d& centre, const std::string& hinges) {
+    const bool bare = first > 0 && tokens_[first - 1].behind && groups_.groups[*tokens_[first - 1].behind].isFrame();
+    for (const std::size_t k : {first, first + 1}) {
+      if (!tokens_[k].behind) continue;
+      const Group& body = groups_.groups[*tokens_[k].behind];
+      const double share = largestMoment(body.inertiaAbout(centre)) / leg_moment_;
+      if (body.isFrame() || !(bare || share > std::max(heavy, choices_.lump))) continue;
+      no_ball_ = fmt::format(
+          "{} meet in one point, but body {} between them has {:.3g} of the leg's moments: it is a link, no cross{}",
+          hinges, shown(body.name), share, bare ? "" : " (--lump)");
+      if (word() == "RRPRRR")
+        no_ball_ += ". The leg is U C U: its rod turns about its own line with the platform's joint";
+      return true;
     }
-    if (std::abs(axes.determinant()) < 1e-2) return {};
-    const Vector3d point = sum.ldlt().solve(right);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Primitive& p = tokens_[first + k];
-      if (!((point - p.inner).cross(p.axis).norm() <= tolerance())) return {};
-    }
-    return point;
+    return false;
   }
 
   void noteCross(std::size_t group, const Vector3d& centre, bool at_platform, bool at_base) {
@@ -196,9 +215,7 @@ class Shaper {
 
   std::size_t link(std::size_t token) const {
     if (tokens_[token].behind) return *tokens_[token].behind;
-    refuseLeg(fmt::format("has no body between joints {} and {}, expected a link",
-                          shown(graph_.joints[tokens_[token].joint].name),
-                          shown(graph_.joints[tokens_[token + 1].joint].name)));
+    refuseLeg(fmt::format("has no body between joints {} and {}, expected a link", nameOf(token), nameOf(token + 1)));
   }
 
   LegShape finish(std::size_t proximal, std::size_t distal) {
@@ -245,15 +262,19 @@ class Shaper {
     refuseLeg(fmt::format(
         "has hinges {} and {} whose axes pass each other at {:.6g} m ({:.3g} of the machine's size) and have an angle "
         "of {:.6g}° between them, expected a universal joint: axes that meet at 90°, within {:g} (--tolerance)",
-        shown(graph_.joints[tokens_[k].joint].name), shown(graph_.joints[tokens_[k + 1].joint].name), met.apart,
-        met.apart / size_, met.angle * degrees_per_radian, choices_.tolerance));
+        nameOf(k), nameOf(k + 1), met.apart, met.apart / size_, met.angle * degrees_per_radian, choices_.tolerance));
   }
 
+  static constexpr double heavy = 0.1;  ///< of the leg's moments; a cross has less
+
   const ModelGraph& graph_;
+  const Groups& groups_;
   int line_;
   std::vector<Primitive> tokens_;  ///< single-axis joints, and balls of one joint or three hinges
   double size_;
   const ImportChoices& choices_;
+  double leg_moment_ = 0;
+  std::string no_ball_;  ///< why three hinges are no ball
   Body extra_proximal_, extra_distal_;
   LegShape shape_;
 };
@@ -266,8 +287,9 @@ std::optional<std::size_t> LegShape::jointOf(std::size_t coordinate) const {
   return coordinate - 1;
 }
 
-LegShape shapeOf(const ModelGraph& graph, const Chain& chain, double size, const ImportChoices& choices) {
-  return Shaper(graph, chain, size, choices).shape();
+LegShape shapeOf(const ModelGraph& graph, const Groups& groups, const Chain& chain, double size,
+                 const ImportChoices& choices) {
+  return Shaper(graph, groups, chain, size, choices).shape();
 }
 
 }  // namespace ursula::exchange

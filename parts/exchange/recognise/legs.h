@@ -39,7 +39,8 @@ struct LegShape {
 
 /// Finds the universal and ball joints among the primitives. `size` is the machine's, m. Throws ImportError with the
 /// joints found instead, and their distances and angles.
-LegShape shapeOf(const ModelGraph& graph, const Chain& chain, double size, const ImportChoices& choices);
+LegShape shapeOf(const ModelGraph& graph, const Groups& groups, const Chain& chain, double size,
+                 const ImportChoices& choices);
 
 /// The midpoint where two lines are nearest, and their distance there.
 struct CommonPerpendicular {
@@ -49,6 +50,17 @@ struct CommonPerpendicular {
 };
 CommonPerpendicular commonPerpendicular(const Vector3d& p, const Vector3d& along_p, const Vector3d& q,
                                         const Vector3d& along_q);
+
+double largestMoment(const Matrix3d& inertia);
+
+/// The point that is nearest to the axes of three hinges.
+struct HingePoint {
+  Vector3d at = Vector3d::Zero();
+  double off = 0;    ///< the largest distance of the point from an axis, m
+  double apart = 0;  ///< the largest distance between two of the axes, m
+};
+/// Returns nothing unless all three are hinges whose axes are in no plane.
+std::optional<HingePoint> hingePoint(const Primitive* three);
 
 /// Input for the numbers of a leg.
 struct LegTask {

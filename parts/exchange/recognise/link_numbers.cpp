@@ -27,10 +27,6 @@ void cleanRounding(Matrix3d& inertia, Vector3d& center, double mass, double size
     if (std::abs(center(k)) <= 64 * eps * size) center(k) = 0;
 }
 
-double largestMoment(const Matrix3d& inertia) {
-  return Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs().maxCoeff();
-}
-
 void takeCoordinate(const GraphJoint& from, Coordinate coordinate, std::size_t k, ImportedLeg& leg,
                     Assumptions& assumptions) {
   leg.actuated[k] = from.driven;
@@ -52,6 +48,10 @@ void takeCoordinate(const GraphJoint& from, Coordinate coordinate, std::size_t k
 
 }  // namespace
 
+double largestMoment(const Matrix3d& inertia) {
+  return Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs().maxCoeff();
+}
+
 CommonPerpendicular commonPerpendicular(const Vector3d& p, const Vector3d& along_p, const Vector3d& q,
                                         const Vector3d& along_q) {
   CommonPerpendicular out;
@@ -68,6 +68,25 @@ CommonPerpendicular commonPerpendicular(const Vector3d& p, const Vector3d& along
   const double on_q = (from.dot(along_p) * cosine - from.dot(along_q)) / square;
   out.at = (p + on_p * along_p + q + on_q * along_q) / 2;
   out.apart = std::abs(from.dot(across)) / sine;
+  return out;
+}
+
+std::optional<HingePoint> hingePoint(const Primitive* three) {
+  Matrix3d sum = Matrix3d::Zero(), axes;
+  Vector3d right = Vector3d::Zero();
+  HingePoint out;
+  for (int k = 0; k < 3; ++k) {
+    const Primitive &p = three[k], &next = three[(k + 1) % 3];
+    if (p.kind != Primitive::Kind::R || next.kind != Primitive::Kind::R) return {};
+    axes.col(k) = p.axis;
+    const Matrix3d across = Matrix3d::Identity() - p.axis * p.axis.transpose();
+    sum += across;
+    right += across * p.inner;
+    out.apart = std::max(out.apart, commonPerpendicular(p.inner, p.axis, next.inner, next.axis).apart);
+  }
+  if (std::abs(axes.determinant()) < 1e-2) return {};
+  out.at = sum.ldlt().solve(right);
+  for (int k = 0; k < 3; ++k) out.off = std::max(out.off, (out.at - three[k].inner).cross(three[k].axis).norm());
   return out;
 }
 

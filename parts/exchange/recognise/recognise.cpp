@@ -56,7 +56,7 @@ void drive(ModelGraph& graph, std::vector<std::string> names) {
 }
 
 /// Makes a hinge of two balls between the same bodies, through both. MJCF closes a loop at a hinge this way.
-void takeHinges(ModelGraph& graph) {
+void takeHinges(ModelGraph& graph, Assumptions& gaps) {
   const Groups groups(graph);
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> balls;
   for (std::size_t j = 0; j < graph.joints.size(); ++j) {
@@ -66,11 +66,22 @@ void takeHinges(ModelGraph& graph) {
     const auto [found, is_new] = balls.emplace(std::pair(a, b), j);
     if (is_new) continue;
     GraphJoint& first = graph.joints[found->second];
-    const Vector3d apart = second.centre - first.centre;
-    if (first.kind != JointKind::ball || !(apart.norm() > 0)) continue;
+    if (groups.group_of[first.parent] != groups.group_of[second.parent]) {
+      std::swap(second.parent, second.child);
+      std::swap(second.centre, second.centre_of_child);
+    }
+    const auto apartOn = [&](std::size_t body, std::size_t other, const Vector3d& one, const Vector3d& two) {
+      return Vector3d(groups.moved[body].inverse() * groups.moved[other] * two - one);
+    };
+    const Vector3d apart = apartOn(first.parent, second.parent, first.centre, second.centre),
+                   on_child = apartOn(first.child, second.child, first.centre_of_child, second.centre_of_child);
+    if (first.kind != JointKind::ball || !(apart.norm() > 0) || !(on_child.norm() > 0)) continue;
     first.kind = JointKind::revolute;
     first.axis[0] = apart.normalized();
+    if (apart != on_child) first.turn = Eigen::Quaterniond::FromTwoVectors(on_child, apart).toRotationMatrix();
     second.kind = JointKind::free;
+    gaps.push_back({"These two points of a hinge are apart by so much more or less on its other body",
+                    first.name + ", " + second.name, std::abs(apart.norm() - on_child.norm()), "m"});
     graph.assumptions.push_back({"Two balls between the same bodies are read as a hinge; this is their distance",
                                  first.name + ", " + second.name, apart.norm(), "m"});
   }
@@ -98,16 +109,19 @@ class Recogniser {
   ImportedMachine machine() {
     close(graph_, choices_.closed);
     drive(graph_, choices_.actuated);
-    takeHinges(graph_);
+    Assumptions gaps;
+    takeHinges(graph_, gaps);
+    requireMass();
     machine_.name = graph_.name;
     machine_.assumptions = graph_.assumptions;
-    const Groups groups(graph_);
-    const Chains chains = findChains(graph_, groups, choices_, machine_.assumptions);
-    const double size = sizeOf(chains);
-    Group platform = groups.groups[chains.platform];
-    const Eigen::Isometry3d B = frameOfBase(), M = frameOfPlatform(platform);
+    Groups groups(graph_);
+    double size = 0;
     std::vector<LegShape> shapes;
-    for (const Chain& chain : chains.legs) shapes.push_back(shapeOf(graph_, chain, size, choices_));
+    const Chains chains = findLegs(groups, shapes, size);
+    gaps.insert(gaps.end(), groups.contradictions.begin(), groups.contradictions.end());
+    sayGaps(graph_, std::move(gaps), size, machine_.assumptions);
+    Group platform = groups.groups[chains.platform];
+    const Eigen::Isometry3d B = frameOfBase(groups), M = frameOfPlatform(groups, platform);
     requireMotors(chains, shapes);
     for (const LegShape& shape : shapes)
       machine_.legs.push_back(legOf({graph_, groups, shape, choices_, size, B, M, platform, machine_.assumptions}));
@@ -115,22 +129,57 @@ class Recogniser {
     sayOrder();
     sayLimits(chains);
     proposeMotion(machine_, size);
+    machine_.assumptions = inOrder(std::move(machine_.assumptions));
     return machine_;
   }
 
  private:
-  Eigen::Isometry3d frameOfBase() {
-    machine_.base = choices_.base;
-    if (choices_.base.empty()) return Eigen::Isometry3d::Identity();
-    return graph_.bodies[bodyNamed(graph_, choices_.base, "--base")].frame;
+  void requireMass() const {
+    for (const GraphBody& body : graph_.bodies)
+      if (!body.fixed && body.mass > 0) return;
+    throw ImportError(
+        fmt::format("none of its {} bodies has a mass, but for the base: expected {} with mass and inertia",
+                    graph_.bodies.size(), graph_.format == ModelFormat::mjcf ? "geoms or <inertial>" : "<inertial>"));
   }
 
-  Eigen::Isometry3d frameOfPlatform(const Group& platform) {
+  /// Finds the legs and their shapes. What has other numbers of motors and freedoms is refused for that first.
+  Chains findLegs(Groups& groups, std::vector<LegShape>& shapes, double& size) {
+    try {
+      Chains chains = findChains(graph_, groups, choices_, machine_.assumptions);
+      size = sizeOf(chains);
+      for (const Chain& chain : chains.legs) shapes.push_back(shapeOf(graph_, groups, chain, size, choices_));
+      return chains;
+    } catch (const ImportError& error) {
+      const std::optional<int> freedoms = freedomsOf(graph_, groups, choices_);
+      if (!freedoms || *freedoms >= 6) throw;
+      std::vector<std::string> motors;
+      for (const GraphJoint& joint : graph_.joints)
+        if (joint.driven) motors.push_back(shown(joint.name));
+      const bool other_kind = motors.empty() || motors.size() == static_cast<std::size_t>(*freedoms);
+      throw ImportError(
+          fmt::format(
+              "{} motor{}{} and {} freedom{} at the initial pose, expected six motors that move a platform with "
+              "six freedoms by three to six legs{}",
+              motors.size(), motors.size() == 1 ? "" : "s", motors.empty() ? "" : fmt::format(" ({})", listed(motors)),
+              *freedoms, *freedoms == 1 ? "" : "s", other_kind ? "" : fmt::format("; {}", error.what())),
+          other_kind ? 0 : error.line);
+    }
+  }
+
+  Eigen::Isometry3d frameOf(const Groups& groups, std::size_t body) const {
+    return groups.moved[body] * graph_.bodies[body].frame;
+  }
+
+  Eigen::Isometry3d frameOfBase(const Groups& groups) {
+    machine_.base = choices_.base;
+    if (choices_.base.empty()) return Eigen::Isometry3d::Identity();
+    return frameOf(groups, bodyNamed(graph_, choices_.base, "--base"));
+  }
+
+  Eigen::Isometry3d frameOfPlatform(const Groups& groups, const Group& platform) {
     machine_.platform = choices_.platform.empty() ? platform.name : choices_.platform;
-    if (!choices_.platform.empty()) return graph_.bodies[bodyNamed(graph_, choices_.platform, "--platform")].frame;
-    for (const std::size_t body : platform.bodies)
-      if (graph_.bodies[body].name == platform.name) return graph_.bodies[body].frame;
-    return graph_.bodies[platform.bodies.at(0)].frame;
+    return frameOf(groups,
+                   choices_.platform.empty() ? platform.foremost : bodyNamed(graph_, choices_.platform, "--platform"));
   }
 
   /// Requires six motors in all; if the file names too few or none, it lists candidates.
