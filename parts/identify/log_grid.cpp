@@ -4,20 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "base/csv.h"
 #include "base/scalar.h"
+#include "base/stamped_rows.h"
 #include "base/text.h"
 
 namespace ursula::identification {
 namespace {
 
 constexpr std::size_t fewest_rows = 16, most_gap = 100'000, head_size = 1000;
-/// A cubic through two rows on either side fills gaps of up to this many rows, because links drop single rows often.
-constexpr std::size_t most_filled = 3;
+/// The grid follows the rows' clock by this share of a row's displacement.
+constexpr double follow = 0.1;
 /// Rows are skipped up to this step, s, because a motion of some hertz needs it.
 constexpr double coarsest = 0.01;
-const double turn = 2 * pi;
+const double turn = 2 * pi, not_there = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -37,8 +40,10 @@ void LogGrid::add(double t, std::vector<double>& row, const Place& place) {
 void LogGrid::settleHead() {
   std::vector<double> steps;
   for (std::size_t k = 1; k < head_.size(); ++k) steps.push_back(head_[k].first - head_[k - 1].first);
-  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
-  step_ = steps[steps.size() / 2];
+  std::sort(steps.begin(), steps.end());  // the middle half has no gap, and both steps of rounded stamps
+  const auto quarter = static_cast<std::ptrdiff_t>(steps.size() / 4);
+  step_ = std::accumulate(steps.begin() + quarter, steps.end() - quarter, 0.0) /
+          static_cast<double>(static_cast<std::ptrdiff_t>(steps.size()) - 2 * quarter);
   for (auto& each : head_) put(each.first, each.second, [&] { return fmt::format("t = {} s", each.first); });
   head_.clear();
 }
@@ -54,80 +59,52 @@ void LogGrid::put(double t, std::vector<double>& row, const Place& place) {
   }
   for (const std::size_t k : turning_)
     if (rows_ > 0) row[k] -= turn * std::round((row[k] - last_[k]) / turn);
+  if (last_steps_ > 1.5 && last_steps_ < 2 && (t - before_) / step_ < 2.5 && every_ == 1) takeLastForLate();
   if (rows_ == 0) first_t_ = t;
   const double steps = rows_ == 0 ? 1 : (t - grid_t_) / step_;
   const auto jump = static_cast<std::size_t>(std::clamp(std::round(steps), 1.0, 1e9));
   if (jump > most_gap)
     throw CsvError(fmt::format("{}: error: {:.6g} s after the row before, where rows are {:.6g} s apart", place(),
                                t - grid_t_, step_));
-  if (jump == 1) jitter_ += (steps - 1) * (steps - 1);
+  const double off = steps - static_cast<double>(jump);
+  jitter_ += off * off;
   gaps_ += jump > 1 ? 1 : 0;
-  std::vector<double> between(jump > 1 ? width_ : 0);
-  for (std::size_t i = 1; i < jump; ++i) {
-    for (std::size_t k = 0; k < width_; ++k)
-      between[k] = last_[k] + static_cast<double>(i) / static_cast<double>(jump) * (row[k] - last_[k]);
-    append(between, true);
-  }
-  append(row, false);
+  const std::vector<double> nothing(jump > 1 ? width_ : 0, not_there);
+  for (std::size_t i = 1; i < jump; ++i) append(nothing, not_there);
+  append(row, t);
   last_ = row;
-  grid_t_ = t;
+  end_t_ = t;
+  before_ = grid_t_;
+  last_steps_ = steps;
+  grid_t_ = jump > 1 ? t : t - (1 - follow) * off * step_;
 }
 
-void LogGrid::append(const std::vector<double>& row, bool missing) {
-  missing_.push_back(missing);
+/// Closes the gap before the last row, which a row follows too soon for one.
+void LogGrid::takeLastForLate() {
+  const auto width = static_cast<std::ptrdiff_t>(width_ + 1);
+  data_.erase(data_.end() - 2 * width, data_.end() - width);
+  --rows_;
+  --gaps_;
+  jitter_ += 2 * last_steps_ - 3;  // the square of steps − 1 instead of that of steps − 2
+  grid_t_ = before_ + (1 + follow * (last_steps_ - 1)) * step_;
+}
+
+void LogGrid::append(const std::vector<double>& row, double t) {
   if (rows_++ % every_ != 0) return;
   data_.insert(data_.end(), row.begin(), row.end());
-  if (data_.size() >= most_log_rows * width_ && !isFull()) halve();
+  data_.push_back(t);
+  if (data_.size() >= most_log_rows * (width_ + 1) && !isFull()) halve();
 }
 
-bool LogGrid::isFull() const { return data_.size() >= most_log_rows * width_ && 2 * every_ * step_ > coarsest; }
+bool LogGrid::isFull() const { return data_.size() >= most_log_rows * (width_ + 1) && 2 * every_ * step_ > coarsest; }
 
 void LogGrid::halve() {
-  const std::size_t half = (data_.size() / width_ + 1) / 2;
+  const std::size_t width = width_ + 1, half = (data_.size() / width + 1) / 2;
   for (std::size_t i = 1; i < half; ++i)
-    std::copy_n(data_.begin() + static_cast<std::ptrdiff_t>(2 * i * width_), width_,
-                data_.begin() + static_cast<std::ptrdiff_t>(i * width_));
-  data_.resize(half * width_);
+    std::copy_n(data_.begin() + static_cast<std::ptrdiff_t>(2 * i * width), width,
+                data_.begin() + static_cast<std::ptrdiff_t>(i * width));
+  data_.resize(half * width);
   every_ *= 2;
-}
-
-std::vector<std::size_t> LogGrid::neighboursOf(std::size_t first, std::size_t end) const {
-  constexpr std::size_t reach = 6;
-  std::vector<std::size_t> out;
-  for (std::size_t k = first; k-- > 0 && first - k <= reach && out.size() < 2;)
-    if (!missing_[k]) out.push_back(k);
-  const std::size_t before = out.size();
-  for (std::size_t k = end; k < missing_.size() && k - end < reach && out.size() < before + 2; ++k)
-    if (!missing_[k]) out.push_back(k);
-  return before == 2 && out.size() == 4 ? out : std::vector<std::size_t>();
-}
-
-void LogGrid::markGaps(MeasuredLog& log) const {
-  const auto every = static_cast<std::size_t>(log.every);
-  for (std::size_t first = 0; first < missing_.size(); ++first) {
-    if (!missing_[first]) continue;
-    const auto after = std::find(missing_.begin() + static_cast<std::ptrdiff_t>(first), missing_.end(), false);
-    const auto end = static_cast<std::size_t>(after - missing_.begin());
-    const std::vector<std::size_t> nodes = neighboursOf(first, end);
-    const bool stays = end - first > most_filled || nodes.empty();
-    for (std::size_t k = first; k < end && k / every < log.missing.size(); ++k) {
-      if (stays) log.missing[k / every] = true;
-      if (stays || every > 1) continue;
-      log.filled.resize(log.missing.size(), false);
-      log.filled[k] = true;
-      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(log.motion.cols());
-      for (const std::size_t node : nodes) {  // Lagrange's cubic
-        double weight = 1;
-        for (const std::size_t other : nodes)
-          if (other != node)
-            weight *= (static_cast<double>(k) - static_cast<double>(other)) /
-                      (static_cast<double>(node) - static_cast<double>(other));
-        sum += weight * log.motion.row(static_cast<Eigen::Index>(node));
-      }
-      log.motion.row(static_cast<Eigen::Index>(k)) = sum;
-    }
-    first = end;
-  }
 }
 
 MeasuredLog LogGrid::finish(const std::string& file) {
@@ -140,31 +117,39 @@ MeasuredLog LogGrid::finish(const std::string& file) {
   log.file = file;
   log.file_rows = count_;
   log.every = every_;
-  log.file_step = (grid_t_ - first_t_) / static_cast<double>(rows_ - 1);
-  log.step = log.file_step * every_;
-  log.start = first_t_;
-  const std::size_t rows = data_.size() / width_;
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  log.motion = Eigen::Map<const Rows>(data_.data(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(width_));
-  log.missing.assign(rows, false);
-  markGaps(log);
+  EvenRows grid{first_t_, (end_t_ - first_t_) / static_cast<double>(rows_ - 1) * every_, {}, {}, {}};
+  StampedRows rows(std::move(data_), width_ + 1, grid.step);
+  const bool even = rows.areEven();
+  if (even) rows.takeAsEven(grid);
+  rows.moveTo(grid);
+  log.start = grid.start;
+  log.step = grid.step;
+  log.file_step = grid.step / every_;
+  log.motion = std::move(grid.values);
+  log.missing = std::move(grid.missing);
+  log.filled = std::move(grid.filled);
+  note(log, even);
+  return log;
+}
+
+void LogGrid::note(MeasuredLog& log, bool even) const {
   if (left_out_ > 0)
     log.findings.push_back({"long", -1, static_cast<double>(left_out_), "rows",
                             fmt::format("the rows up to t = {:.6g} s are used; {} more are left out, because steps "
                                         "beyond {:g} s would hide the motion",
-                                        grid_t_, left_out_, coarsest)});
+                                        end_t_, left_out_, coarsest)});
   const std::size_t used = count_ - left_out_;
   if (const std::size_t filled = rows_ - (used - lacking_); filled > 0)
     log.findings.push_back({"drop_outs", -1, static_cast<double>(filled), "rows",
                             fmt::format("of {} rows {} are missing (gaps: {}) and {} have empty cells; up to {} in a "
-                                        "row are filled by a cubic, what is near longer gaps is left out",
-                                        rows_, rows_ - used, gaps_, lacking_, most_filled)});
+                                        "row are filled by a polynomial, what is near longer gaps is left out",
+                                        rows_, rows_ - used, gaps_, lacking_, most_filled_rows)});
   if (const double jitter = std::sqrt(jitter_ / static_cast<double>(rows_)); jitter > 0.05)
     log.findings.push_back(
         {"jitter", -1, jitter, "steps",
-         fmt::format("instants are off a grid of {:.6g} s by {:.2g} of a step (rms); they are taken to be on it",
-                     log.file_step, jitter)});
-  return log;
+         fmt::format("instants are off a grid of {:.6g} s by {:.2g} of a step (rms); {}", log.file_step, jitter,
+                     even ? "the motion's rows are even, so they are taken to be on it"
+                          : "each row is used at its own instant")});
 }
 
 }  // namespace ursula::identification

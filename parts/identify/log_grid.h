@@ -9,8 +9,9 @@
 
 namespace ursula::identification {
 
-/// Puts rows on a grid of equal steps by their instants. Beyond most_log_rows it takes every second row, then
-/// every fourth and so on, and the first of them when more would be too coarse.
+/// Puts rows on a grid of equal steps. Each row counts at its own instant, unless the motion shows that the rows are
+/// even and only their stamps are not. Beyond most_log_rows it takes every second row, then every fourth and so on, and
+/// the first of them when more would be too coarse.
 class LogGrid {
  public:
   using Place = std::function<std::string()>;  ///< names a row in errors
@@ -26,20 +27,18 @@ class LogGrid {
  private:
   void settleHead();
   void put(double t, std::vector<double>& row, const Place& place);
-  void append(const std::vector<double>& row, bool missing);
+  void append(const std::vector<double>& row, double t);
+  void takeLastForLate();
   void halve();
   bool isFull() const;
-  /// Returns the two rows on either side of a gap that are there and near; empty if one is not.
-  std::vector<std::size_t> neighboursOf(std::size_t first, std::size_t end) const;
-  /// Marks the gaps that stay, and fills the others.
-  void markGaps(MeasuredLog& log) const;
+  void note(MeasuredLog& log, bool even) const;
 
   std::size_t width_;
   std::vector<std::size_t> turning_;
   std::vector<std::pair<double, std::vector<double>>> head_;  ///< first rows, which tell the step
-  std::vector<double> data_, last_;
-  std::vector<bool> missing_;
-  double step_ = 0, first_t_ = 0, grid_t_ = 0, last_t_ = 0, jitter_ = 0;
+  std::vector<double> data_, last_;  ///< `data_` has a row's values and its instant; NaN for a missing row
+  double step_ = 0, first_t_ = 0, grid_t_ = 0, end_t_ = 0, last_t_ = 0, jitter_ = 0;
+  double before_ = 0, last_steps_ = 0;  ///< the grid's instant before the last row, and the steps from it to that row
   std::size_t count_ = 0, rows_ = 0, gaps_ = 0, lacking_ = 0, left_out_ = 0;
   int every_ = 1;
 };

@@ -68,8 +68,9 @@ DELETE FROM main.point WHERE verdict = 'error' AND id IN (SELECT id FROM part.po
 void requireSame(Sqlite& database, const Part& part) {
   Statement other(database, differing);
   if (!other.step()) return;
-  throw DatabaseError(fmt::format("{}: error: its point {} is not that of {}: one of the two is wrong",
-                                  part.file.string(), other.integer(0), database.file().string()));
+  throw DatabaseError(fmt::format(
+      "{}: error: its point {} is not that of {}: one of the two is wrong, or two kinds of machines round differently",
+      part.file.string(), other.integer(0), database.file().string()));
 }
 
 constexpr const char* meets =

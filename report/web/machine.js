@@ -23,6 +23,26 @@ export function plate(corners, thickness) {
 
 const up = new Vector3(0, 0, 1);
 
+/** All points that links' ends pass. */
+export const linkEnds = (machine) => machine.legs.flatMap((leg) => leg.links.flatMap(({ from, to }) => [...points(from), ...points(to)]));
+
+// A tag's height, its place below a leg's first joint, and its width, in sizes of the machine.
+const tag_height = 0.075;
+const tag_drop = 0.07;
+const tagWidth = (wrong) => (wrong ? 4 : 1) * tag_height;
+
+/** All that the machine, its labels and its path may cover, as things of fit.js. */
+export function extent(machine, size) {
+  const all = (at, ...half) => at.map((point) => ({ at: point, half: half.map((each) => each * size) }));
+  const joint = 0.055; // half of the largest drum's diagonal
+  const tags = machine.legs.flatMap((leg, k) => {
+    const below = points(leg.joints[0].at).map((point) => point.addScaledVector(up, -tag_drop * size));
+    return all(below, tagWidth(machine.wrong.includes(k)) / 2, tag_height / 2);
+  });
+  const rails = machine.legs.flatMap((leg) => leg.rails.flatMap(({ from, to }) => [...points(from), ...points(to)]));
+  return [...all(linkEnds(machine), joint, joint), ...all(rails, 0.02, 0.02), ...all(points(machine.p), 0.016, 0.016), ...tags];
+}
+
 function makeJoint(joint, size, material) {
   const group = new Group();
   if (joint.axes.length === 0) group.add(ball(0.022 * size, material));
@@ -49,16 +69,16 @@ function makeRail(rail, size) {
 /** The leg's number, in front of everything; a wrong leg is called so. */
 function nameTag(index, wrong, size) {
   const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [256, 64];
+  [canvas.width, canvas.height] = [(64 * tagWidth(wrong)) / tag_height, 64];
   const ink = canvas.getContext("2d");
   ink.font = wrong ? "bold 46px sans-serif" : "40px sans-serif";
   ink.textAlign = "center";
   ink.fillStyle = color(wrong ? "fail" : "text");
-  ink.fillText(wrong ? `✗ leg ${index + 1}` : `${index + 1}`, 128, 48);
+  ink.fillText(wrong ? `✗ leg ${index + 1}` : `${index + 1}`, canvas.width / 2, 48);
   const map = new CanvasTexture(canvas);
   map.colorSpace = SRGBColorSpace;
   const tag = new Sprite(new SpriteMaterial({ map, depthTest: false }));
-  tag.scale.set(0.3 * size, 0.075 * size, 1);
+  tag.scale.set(tagWidth(wrong) * size, tag_height * size, 1);
   return tag;
 }
 
@@ -76,7 +96,7 @@ function makeLeg(leg, index, size, wrong) {
       joints[k].position.copy(vectorAt(joint.at, place));
       joint.axes.forEach((axis, i) => turnTo(joints[k].children[i], vectorAt(axis, place).normalize()));
     });
-    tag.position.copy(joints[0].position).addScaledVector(up, -0.07 * size);
+    tag.position.copy(joints[0].position).addScaledVector(up, -tag_drop * size);
   };
   return { group, update };
 }

@@ -1,7 +1,8 @@
 import { AmbientLight, Box3, DirectionalLight, Group, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { eyeFor } from "./fit.js";
 import { axesLayer, effortsLayer, errorLayer, framesLayer, reactionsLayer } from "./layers.js";
-import { makeMachine, points } from "./machine.js";
+import { extent, linkEnds, makeMachine } from "./machine.js";
 import { weakLayer } from "./weak_layer.js";
 import { largestVector, placeAt, resolved } from "./tracks.js";
 
@@ -15,15 +16,9 @@ const makers = [
 ];
 /** The page's own word for what a layer draws: a machine of sliding motors has forces. */
 const headingOf = (key) => document.querySelector(`#${key} > h2`)?.textContent.toLowerCase();
-const view = new Vector3(0.75, -1.15, 0.5);
-
-/** The box that the machine sweeps over the whole motion. */
-function room(machine) {
-  const box = new Box3();
-  for (const leg of machine.legs) for (const link of leg.links) box.setFromPoints([...points(link.from), ...points(link.to), ...corners(box)]);
-  return box;
-}
-const corners = (box) => (box.isEmpty() ? [] : [box.min.clone(), box.max.clone()]);
+const view = new Vector3(-0.75, 1.15, -0.5).normalize();
+const slope = Math.tan((17.5 * Math.PI) / 180); // of half the camera's angle
+const filled = 0.97; // share of the stage that the machine takes
 
 /** Powers of ten that make the largest error visible, the default first; 1 if it is visible without. */
 function factorsFor(machine, size) {
@@ -48,19 +43,21 @@ function lights() {
 class Stage {
   #machine;
   #size;
+  #things;
   #layers = new Map();
   #shown = new Map(makers.map(([key, , on]) => [key, on]));
   #asked = false;
 
   constructor(host, machine, clock, renderer) {
-    const box = room(machine);
+    const box = new Box3().setFromPoints(linkEnds(machine));
     this.#machine = machine;
     this.#size = box.getSize(new Vector3()).length() / 1.8;
     this.middle = box.getCenter(new Vector3());
     this.clock = clock;
     this.host = host;
     this.renderer = renderer;
-    this.camera = new PerspectiveCamera(35, 1, 0.01 * this.#size, 50 * this.#size);
+    this.#things = extent(machine, this.#size);
+    this.camera = new PerspectiveCamera((360 / Math.PI) * Math.atan(slope), 1, 0.01 * this.#size, 50 * this.#size);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, renderer.domElement);
     this.controls.addEventListener("change", () => this.render());
@@ -101,9 +98,16 @@ class Stage {
   }
 
   resetView() {
-    this.controls.target.copy(this.middle);
-    this.camera.position.copy(this.middle).addScaledVector(view, 1.5 * this.#size);
-    this.controls.update();
+    this.#look(view);
+  }
+
+  /** Looks along `forward`, so that all of machine, labels and path is seen. */
+  #look(forward) {
+    const { camera, controls } = this;
+    camera.position.copy(eyeFor(this.#things, forward, camera.up, [filled * slope * camera.aspect, filled * slope]));
+    const ahead = this.middle.clone().sub(camera.position).dot(forward);
+    controls.target.copy(camera.position).addScaledVector(forward, ahead);
+    controls.update();
     this.render();
   }
 
@@ -113,10 +117,8 @@ class Stage {
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
-    const wide = 1.2; // a narrower stage, as on a phone, still shows the machine's whole width
-    this.camera.fov = (360 / Math.PI) * Math.atan(Math.tan((17.5 * Math.PI) / 180) * Math.max(1, (wide * height) / width));
     this.camera.updateProjectionMatrix();
-    this.render();
+    this.#look(this.camera.getWorldDirection(new Vector3()));
   }
 
   /** Draws once a frame at most. */

@@ -59,6 +59,39 @@ export async function drawAll(page) {
 /** A picture of the machine as it is seen. */
 export const machineSeen = (page) => page.locator(".screen").screenshot();
 
+/** The pixels that the machine's canvas draws, as a box in shares of the canvas: an edge at 0 or 1 is cut off. */
+export async function drawnBox(page) {
+  const canvas = page.locator(".screen canvas");
+  const opacity = (value) => canvas.evaluate((element, shown) => (element.style.opacity = shown), value);
+  await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+  const drawn = await machineSeen(page);
+  await opacity(0);
+  const blank = await machineSeen(page);
+  await opacity(1);
+  return page.evaluate(async (pictures) => {
+    const pixels = async (png) => {
+      const image = new Image();
+      image.src = `data:image/png;base64,${png}`;
+      await image.decode();
+      const ink = new OffscreenCanvas(image.width, image.height).getContext("2d");
+      ink.drawImage(image, 0, 0);
+      return ink.getImageData(0, 0, image.width, image.height);
+    };
+    const [one, other] = [await pixels(pictures[0]), await pixels(pictures[1])];
+    const [with_it, without] = [one, other].map(({ data }) => new Uint32Array(data.buffer));
+    const box = { left: 1, right: 0, top: 1, bottom: 0 };
+    with_it.forEach((pixel, k) => {
+      if (pixel === without[k]) return;
+      const [x, y] = [k % one.width, Math.floor(k / one.width)];
+      box.left = Math.min(box.left, x / one.width);
+      box.right = Math.max(box.right, (x + 1) / one.width);
+      box.top = Math.min(box.top, y / one.height);
+      box.bottom = Math.max(box.bottom, (y + 1) / one.height);
+    });
+    return box;
+  }, [drawn.toString("base64"), blank.toString("base64")]);
+}
+
 const findings = async (page, options) => {
   const { violations } = await page.evaluate((asked) => globalThis.axe.run(document, asked), { resultTypes: ["violations"], ...options });
   return violations

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "parts/sweep/sqlite.h"
 #include "tests/end_to_end/program.h"
 #include "tests/end_to_end/running.h"
 #include "tests/support/matchers.h"
@@ -168,6 +170,56 @@ TEST(SweepVerb, sweepsThatShipPass) {
     EXPECT_EQ(run.exit_code, 0) << name << run.out << run.err;
     EXPECT_THAT(run.out, testing::MatchesRegex("[0-9]+ points: [0-9]+ pass\n.*\n")) << name;
   }
+}
+
+/// Calls the program with a C library that sees no fused multiply-add in the processor.
+class WithoutFma {
+ public:
+  WithoutFma() {
+    ::setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-FMA_Usable,-FMA4_Usable,-AVX2_Usable", 1);
+  }
+  ~WithoutFma() { ::unsetenv("GLIBC_TUNABLES"); }
+};
+
+bool hasFma() {
+#if defined(__x86_64__)
+  return __builtin_cpu_supports("fma");
+#else
+  return false;
+#endif
+}
+
+/// What docs/sweep.md promises of other machines.
+TEST(SweepVerb, rowsOfAMachineThatRoundsDifferentlyAreTheSameUpToRounding) {
+  const Program ursula;
+  ursula.write("s.toml", "scenario = \"" URSULA_SCENARIOS
+                         "/helix-0.3s.toml\"\ndesign = \"random\"\ncount = 4\nsamples = 7\n"
+                         "[[vary]]\nkey = \"platform.mass\"\nuniform = [400.0, 600.0]\n"
+                         "[[vary]]\nkey = \"trajectory.radius\"\nuniform = [0.1, 0.3]\n");
+  ASSERT_EQ(ursula("sweep s.toml --db one.db").exit_code, 0);
+  ASSERT_EQ(ursula("sweep s.toml --db again.db").exit_code, 0);
+  {
+    const WithoutFma there;
+    ASSERT_EQ(ursula("sweep s.toml --db other.db").exit_code, 0);
+  }
+  const auto differing = [&](const char* database, const std::string& of) {
+    Sqlite one(ursula.folder() / "one.db", Sqlite::Access::read);
+    one.run("ATTACH '" + (ursula.folder() / database).string() + "' AS other");
+    return one.number(
+        "SELECT count(*) FROM point p JOIN other.point q ON q.id = p.id JOIN result r ON r.point = p.id JOIN "
+        "other.result s ON s.point = p.id AND s.name = r.name WHERE " +
+        of);
+  };
+  EXPECT_GT(differing("other.db", "1"), 4 * 30);
+  EXPECT_EQ(differing("other.db", "p.parameters <> q.parameters OR p.verdict <> q.verdict OR r.verdict <> s.verdict"),
+            0);
+  EXPECT_EQ(differing("other.db", "abs(r.value - s.value) > max(r.\"limit\", s.\"limit\")"), 0);
+  EXPECT_EQ(differing("again.db", "r.value <> s.value OR r.\"limit\" <> s.\"limit\""), 0);
+  if (!hasFma()) return;
+  EXPECT_GT(differing("other.db", "r.value <> s.value"), 0) << "a control: the two libraries do round differently";
+  const UrsulaRun merged = ursula("sweep merge one.db other.db --db both.db");
+  EXPECT_EQ(merged.exit_code, 2);
+  EXPECT_THAT(merged.err, HasSubstr("two kinds of machines round differently"));
 }
 
 }  // namespace

@@ -45,6 +45,13 @@ ValidationResult longSample() {
   return result;
 }
 
+ValidationResult machineSample(const std::string& name) {
+  ValidationResult result = passedSample();
+  result.scenario = name;
+  result.asked = std::make_shared<const Scenario>(readScenario(std::string(URSULA_SCENARIOS) + "/" + name + ".toml"));
+  return result;
+}
+
 TimeSeries comparedSample() {
   TimeSeries series = passedSample().timeseries;
   for (std::size_t k = 0; k < series.names.size(); ++k) {

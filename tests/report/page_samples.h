@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include <filesystem>
 
 #include "parts/prove/prove.h"
@@ -12,6 +14,9 @@ TimeSeries comparedSample();
 
 /// The passed sample stretched to sixty seconds at a kilohertz, with a ripple that thinning must keep.
 ValidationResult longSample();
+
+/// The passed sample with the machine of a shipped scenario.
+ValidationResult machineSample(const std::string& name);
 
 /// A made-up proof, with defects that several checks catch, one catches, or none.
 ProveResult proveSample(bool weak);

@@ -32,6 +32,8 @@ int main(int argc, char** argv) {
       {"unreadable", Verdict::fail, "", {}, "scenario.toml:3:1: error: expected a value", {}, "", {}, {}});
   writeResults(test::passedSample(), dir / "alone");
   writeResults(test::longSample(), dir / "long");
+  for (const char* machine : {"flight-simulator", "hexa", "hexaglide"})
+    writeResults(test::machineSample(machine), dir / machine);
   test::writeSuiteIndex(entries, dir);
   test::writePageSamples(dir);
 }

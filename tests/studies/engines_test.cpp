@@ -92,6 +92,32 @@ TEST(Engines, knowFrictionLoadAndRotors) {
   }
 }
 
+/// A thin rod has no inertia about its line, which is the axis of its first joint if all coordinates are zero. ODE says
+/// that it cannot take such a body.
+TEST(Engines, areAskedWhereRodsAreThin) {
+  Scenario thin = shipped("flight-simulator");
+  ManipulatorParameters machine = thin.manipulator->parameters();
+  for (Leg& leg : machine.legs) leg.proximal.inertia(2, 2) = leg.distal.inertia(2, 2) = 0;
+  thin.manipulator = std::make_shared<Manipulator>(machine);
+  for (const Scenario& scenario : {thin, shipped("free-rods")})
+    for (const EngineResult& engine : foundIn(scenario).engines) {
+      SCOPED_TRACE(scenario.name + ", " + engine.kind->name);
+      if (engine.kind->name == std::string("ODE")) {
+        EXPECT_THAT(engine.refused, HasSubstr("inertia about every axis"));
+        continue;
+      }
+      ASSERT_EQ(engine.refused, "");
+      EXPECT_LE(engine.of(Recipe::exact).error, 1e-12);
+      if (engine.kind->has_own_inverse) {
+        EXPECT_GT(engine.of(Recipe::own_inverse).error, 0.01);
+      }
+      for (const TimeSteppingResult& each : engine.in_time)
+        EXPECT_EQ(each.gave_up, movesNoRotors(engine) && scenario.name == "free-rods"
+                                    ? engine.kind->name + std::string(" moves no rotors")
+                                    : "");
+    }
+}
+
 /// A control: an engine with another machine must differ.
 TEST(Engines, seeWhereAMachineIsAnother) {
   const Scenario scenario = shipped("flight-simulator");

@@ -7,6 +7,7 @@ add_executable(identify_tests
   identify/signals_test.cpp
   identify/synthetic_log.cpp
   identify/tolerances_test.cpp
+  identify/uneven_rows_test.cpp
 )
 # The evidence that docs/identify.md quotes, with what is not reached yet.
 add_executable(identify_logs EXCLUDE_FROM_ALL
@@ -20,4 +21,4 @@ foreach(program identify_tests identify_logs)
     test_support test_components ursula::simbody nlohmann_json::nlohmann_json fmt::fmt GTest::gmock GTest::gtest_main)
   target_compile_definitions(${program} PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
 endforeach()
-ursula_test_suites(identify_tests LONG ClosedFormLogs Identify)
+ursula_test_suites(identify_tests LONG ClosedFormLogs Identify UnevenLogs)

@@ -2,7 +2,7 @@
 // usage: node report_browser_test.mjs SAMPLES_DIR PACKAGE_DIR CHROMIUM
 import assert from "node:assert/strict";
 import { after, afterEach, before, test } from "node:test";
-import { assertQuietAndOffline, close, closePages, colorsOf, drawAll, launch, machineSeen, opened, sample, seriousFindings } from "../browser/pages.mjs";
+import { assertQuietAndOffline, close, closePages, colorsOf, drawAll, drawnBox, launch, machineSeen, opened, sample, seriousFindings } from "../browser/pages.mjs";
 
 before(launch);
 after(close);
@@ -66,6 +66,31 @@ for (const [folder, legs] of [["passed", "six URS legs"], ["external", "three UP
     const switchText = await page.locator("label", { has: page.locator("[data-layer=efforts]") }).innerText();
     assert.equal(switchText.trim(), (await page.locator("#efforts > h2").innerText()).toLowerCase(), "two words for efforts");
     assertQuietAndOffline(report);
+  });
+
+const isInside = ({ left, right, top, bottom }) => Math.min(left, top, 1 - right, 1 - bottom) > 0.005;
+
+for (const folder of ["passed", "failed", "external", "flight-simulator", "hexa", "hexaglide"])
+  test(`machine, labels and path of ${folder} fit into the stage at every width`, async () => {
+    const { page } = await opened(`${folder}/report.html`);
+    await page.locator(".screen canvas").waitFor();
+    const errors = page.locator("[data-layer=error]"); // enlarged at will
+    if ((await errors.count()) > 0) await errors.setChecked(false);
+    for (const width of [1280, 700, 390]) {
+      await page.setViewportSize({ width, height: 800 });
+      const duration = await page.locator("[data-role=time]").evaluate(({ max }) => Number(max));
+      for (const share of [0, 0.4, 1]) {
+        await setTime(page, share * duration);
+        const box = await drawnBox(page);
+        assert.ok(isInside(box), `${width} px, ${share}: ${JSON.stringify(box)}`);
+        assert.ok(Math.max(box.right - box.left, box.bottom - box.top) > 0.6, `small at ${width} px: ${JSON.stringify(box)}`);
+      }
+    }
+    await page.locator(".screen canvas").hover();
+    for (let k = 0; k < 8; ++k) await page.mouse.wheel(0, -300);
+    assert.ok(!isInside(await drawnBox(page)), "a machine that is too near is cut off");
+    await page.locator("[data-role=reset]").click();
+    assert.ok(isInside(await drawnBox(page)), "and is seen again");
   });
 
 test("one time for the machine and all charts", async () => {

@@ -57,13 +57,16 @@ void readGaps(const mjData& data, int legs, PlacedTree& out) {
         Eigen::Map<const Vector3d>(data.site_xpos + 3 * mujoco::siteOnPlatform(legs, i));
 }
 
-/// Builds the machine with loops that MuJoCo's `connect` closes at this softness.
-Connected connected(const Manipulator& manipulator, const Vector3d& origin, const Softness& softness) {
-  Connected out = mujoco::connected(manipulator, origin);
+/// Builds the machine at a pose, with loops that MuJoCo's `connect` closes at this softness.
+Connected connected(const Manipulator& manipulator, const Vector3d& origin, const mjtNum* pose,
+                    const Rigidity& rigidity) {
+  const Softness softness = softnessOf(rigidity);
+  Connected out = mujoco::connected(manipulator, origin, pose);
   for (int leg = 0; leg < manipulator.legCount(); ++leg) {
     std::copy(softness.solref.begin(), softness.solref.end(), out.model->eq_solref + mjNREF * leg);
     std::copy(softness.solimp.begin(), softness.solimp.end(), out.model->eq_solimp + mjNIMP * leg);
   }
+  out.model->opt.timestep = rigidity.step;
   return out;
 }
 
@@ -73,17 +76,13 @@ Connected connected(const Manipulator& manipulator, const Vector3d& origin, cons
 class MujocoStepped : public SteppedLoop {
  public:
   MujocoStepped(const Manipulator& manipulator, std::shared_ptr<const Load> load, const Rigidity& rigidity)
-      : loop_(manipulator, std::move(load)),
-        at_(*loop_.impl_),
-        own_(connected(manipulator, at_.origin, softnessOf(rigidity))) {
-    own_.model->opt.timestep = rigidity.step;
-    own_.model->opt.enableflags |= mjENBL_ENERGY;
-  }
+      : loop_(manipulator, std::move(load)), at_(*loop_.impl_), rigidity_(rigidity) {}
 
   void start(const Motion<double>& motion) override {
     at_.place(motion);
     at_.move(motion);
-    mj_resetData(own_.model.get(), own_.data.get());
+    own_ = connected(at_.manipulator, at_.origin, at_.data->qpos, rigidity_);
+    own_.model->opt.enableflags |= mjENBL_ENERGY;
     std::copy_n(at_.data->qpos, own_.model->nq, own_.data->qpos);
     std::copy_n(at_.data->qvel, own_.model->nv, own_.data->qvel);
     own_.data->time = motion.t;
@@ -129,7 +128,8 @@ class MujocoStepped : public SteppedLoop {
 
   MujocoLoop loop_;
   MujocoLoop::Impl& at_;
-  Connected own_;
+  Rigidity rigidity_;
+  Connected own_;  ///< made at the start's pose
 };
 
 class MujocoCalls : public LoopEngine {
@@ -170,13 +170,10 @@ class MujocoCalls : public LoopEngine {
  protected:
   Vector6d ownInverse(const Motion<double>& motion, bool hard) override {
     Connected& own = hard ? hard_ : soft_;
-    if (!own.model) {
-      const Rigidity asked = hard ? rigidities().back() : rigidities().front();
-      own = connected(manipulator(), at_.origin, softnessOf(asked));
-      own.model->opt.timestep = asked.step;
-    }
     at_.place(motion);
     at_.move(motion);
+    if (!own.model)
+      own = connected(manipulator(), at_.origin, at_.data->qpos, hard ? rigidities().back() : rigidities().front());
     std::copy_n(at_.data->qpos, own.model->nq, own.data->qpos);
     std::copy_n(at_.data->qvel, at_.dofs, own.data->qvel);
     std::copy_n(at_.data->qacc, at_.dofs, own.data->qacc);
@@ -191,7 +188,7 @@ class MujocoCalls : public LoopEngine {
   MujocoLoop loop_;
   MujocoLoop::Impl& at_;
   PlacedTree tree_;
-  Connected soft_, hard_;  ///< made on first use
+  Connected soft_, hard_;  ///< made at the pose of their first use
 };
 
 std::unique_ptr<LoopEngine> makeMujocoCalls(const Manipulator& manipulator, std::shared_ptr<const Load> load) {

@@ -269,7 +269,7 @@ double MujocoLoop::softImpedance() { return mjMAXIMP; }
 
 Vector6d MujocoLoop::softTwistRate(const TreeCoordinates& at, const Vector6d& efforts) {
   Impl& loop = *impl_;
-  if (!loop.connected.model) loop.connected = mujoco::connected(loop.manipulator, loop.origin);
+  if (!loop.connected.model) loop.connected = mujoco::connected(loop.manipulator, loop.origin, at.q.data());
   const mjModel* model = loop.connected.model.get();
   mjData* data = loop.connected.data.get();
   std::copy(at.q.begin(), at.q.end(), data->qpos);

@@ -163,11 +163,30 @@ void writeLeg(mjModel& model, int index, const Leg& leg, const Vector3d& origin)
   model.body_subtreemass[proximal] = leg.proximal.mass + leg.distal.mass;
 }
 
-/// Makes the constraints as hard as MuJoCo allows. It sets the constants that MuJoCo derives from inertias when it
-/// parses a text, and then restores the constraints' points from the sites, because that call moves them.
-void connect(mjModel& model, int legs) {
+/// Makes `pose` (qpos) the one that the frames, the axes and MuJoCo's derived constants belong to, as its compiler does
+/// with a file's. The same qpos mean the same poses as before. At zero a leg may lie along an axis and have no inertia
+/// about it. mj_setConst throws then.
+void setReference(mjModel& model, const mjtNum* pose) {
   const Data data = dataOf(model);
+  std::copy_n(pose, model.nq, data->qpos);
+  mj_kinematics(&model, data.get());
+  for (int body = 1; body < model.nbody; ++body) {
+    const int parent = model.body_parentid[body];
+    std::array<mjtNum, 3> at{};
+    std::array<mjtNum, 4> turn{};
+    mju_negPose(at.data(), turn.data(), data->xpos + 3 * parent, data->xquat + 4 * parent);
+    mju_mulPose(model.body_pos + 3 * body, model.body_quat + 4 * body, at.data(), turn.data(), data->xpos + 3 * body,
+                data->xquat + 4 * body);
+  }
+  for (int joint = 0; joint < model.njnt; ++joint)
+    mju_rotVecMatT(model.jnt_axis + 3 * joint, data->xaxis + 3 * joint, data->xmat + 9 * model.jnt_bodyid[joint]);
+  std::copy_n(pose, model.nq, model.qpos0);
   mj_setConst(&model, data.get());
+}
+
+/// Makes the constraints as hard as MuJoCo allows. It restores their points from the sites, because mj_setConst moves
+/// them.
+void harden(mjModel& model, int legs) {
   for (int leg = 0; leg < legs; ++leg) {
     std::copy_n(model.site_pos + 3 * siteOnLeg(leg), 3, model.eq_data + mjNEQDATA * leg);
     std::copy_n(model.site_pos + 3 * siteOnPlatform(legs, leg), 3, model.eq_data + mjNEQDATA * leg + 3);
@@ -204,7 +223,6 @@ Model buildModel(const Manipulator& manipulator, const Vector3d& origin, Closure
     writeLeg(*model, leg, manipulator.leg(leg), origin);
     write(manipulator.leg(leg).platform_point - platform.center_of_mass, model->site_pos, siteOnPlatform(legs, leg));
   }
-  if (closure == Closure::connected) connect(*model, legs);
   return model;
 }
 
@@ -214,9 +232,11 @@ Data dataOf(const mjModel& model) {
   return out;
 }
 
-Connected connected(const Manipulator& manipulator, const Vector3d& origin) {
+Connected connected(const Manipulator& manipulator, const Vector3d& origin, const mjtNum* pose) {
   Connected out;
   out.model = buildModel(manipulator, origin, Closure::connected);
+  setReference(*out.model, pose);
+  harden(*out.model, manipulator.legCount());
   out.data = dataOf(*out.model);
   return out;
 }

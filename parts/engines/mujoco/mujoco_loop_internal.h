@@ -57,7 +57,8 @@ struct Connected {
   Model model;
   Data data;
 };
-Connected connected(const Manipulator& manipulator, const Vector3d& origin);
+/// `pose` is one that the machine takes, as qpos of its open model.
+Connected connected(const Manipulator& manipulator, const Vector3d& origin, const mjtNum* pose);
 
 }  // namespace ursula::mujoco
 

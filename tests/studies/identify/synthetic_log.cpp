@@ -39,7 +39,7 @@ SyntheticRows syntheticRows(const Scenario& scenario, const ManipulatorParameter
   out.motion.resize(rows, motor_count);
   out.efforts.resize(rows, motor_count);
   for (Eigen::Index i = 0; i < rows; ++i) {
-    const double t = static_cast<double>(i) / how.rate;
+    const double t = (static_cast<double>(i) + (how.off ? how.off(static_cast<int>(i)) : 0)) / how.rate;
     out.t.push_back(t);
     if (how.delay != 0) loop.place(syntheticMotion(scenario, how, t - how.delay));
     if (how.delay != 0) out.efforts.row(i) = loop.inverseDynamics().transpose();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "model/scenario.h"
@@ -17,6 +18,7 @@ struct SyntheticLog {
   double delay = 0;                 ///< delay of efforts behind the motion, s
   double size = 1;                  ///< factor on the motion
   unsigned seed = 1;
+  std::function<double(int row)> off = {};  ///< how far rows are from a grid of the rate, steps; none is
 };
 
 struct SyntheticRows {
