@@ -94,8 +94,8 @@ void explainSolver(const Scenario& scenario, const Evidence& evidence, const Sub
   const Subject solver = inSi(subject, evidence.natural);
   const TorqueFile file =
       within(torqueFileOf(answers, scenario.manipulator->motors()), scenario.trajectory->duration());
-  const bool in_time = evidence.has.out_of_time.empty();
-  partLikelyCause()(relocated(scenario, evidence.natural.origin), file, in_time ? &solver : nullptr, result);
+  const WrongSolver wrong{solver, subject, evidence};
+  partLikelyCause()(relocated(scenario, evidence.natural.origin), file, &wrong, result);
 }
 
 /// The subject, which answers only until the deadline.

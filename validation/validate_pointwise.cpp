@@ -14,7 +14,7 @@ namespace ursula {
 namespace {
 
 bool anyNotPassed(const std::vector<Check>& checks) {
-  return std::any_of(checks.begin(), checks.end(), [](const Check& check) { return check.verdict != Verdict::pass; });
+  return anyIs(checks, Verdict::fail) || anyIs(checks, Verdict::inconclusive);
 }
 
 /// Compares everything at an instant with measured limits unless all pass with derived ones.
@@ -22,11 +22,12 @@ std::vector<Check> judgeSamples(Evidence& evidence) {
   const int count = evidence.given->simulation.samples;
   const std::vector<double> instants = equallySpaced(evidence.scenario->trajectory->duration(), count);
   evidence.samples = runJointsAndTorques(*evidence.scenario, *evidence.subject, instants);
-  std::vector<Check> checks = judgeJointsAndTorques(evidence.samples, evidence.units());
+  std::vector<Check> checks =
+      judgeJointsAndTorques(evidence.samples, evidence.units(), MotionSizes(*evidence.scenario));
   if (anyNotPassed(checks)) {
     const RoundingProfile profile(*evidence.scenario, profileInstants(count));
     evidence.samples = runPointwise(*evidence.scenario, *evidence.subject, instants, profile);
-    checks = judgePointwise(evidence.samples, true, evidence.units());
+    checks = judgePointwise(evidence.samples, true, evidence.units(), profile.sizes());
   }
   checksInSi(evidence.units(), checks);
   return checks;

@@ -66,24 +66,23 @@ std::optional<Explanation> rounded(const MotorNames& motors, const ExternalTorqu
   return std::nullopt;
 }
 
-/// Explains deviations that are about as large as the jumps of answers to nearly the same question. The jumps must
-/// exceed rounding in doubles.
+/// Explains deviations that are about as large as the jumps of the motor's answers to nearly the same question. The
+/// jumps must exceed rounding in doubles. Every motor must be off: digits lost within a solver spare none.
 std::optional<Explanation> grainy(const MotorNames& motors, const ExternalTorques& torques, const AskedApart& asked) {
   constexpr double grains = 100, more_than_rounding = 100, least = 1e-10, most = 1e-4;
-  double largest = 0, rounding = 0;
-  for (std::size_t k = 0; k < torques.file.rows(); ++k) {
-    largest = std::max(largest, torques.noc[k].cwiseAbs().maxCoeff());
-    rounding = std::max(rounding, roundingAt(torques, k));
-  }
-  if (!(asked.grain > std::max(least * largest, more_than_rounding * rounding) && asked.grain < most * largest))
+  const double largest = torques.sizes.of(Rounded::torque), grain = asked.grain.maxCoeff();
+  double rounding = 0;
+  for (std::size_t k = 0; k < torques.file.rows(); ++k) rounding = std::max(rounding, roundingAt(torques, k));
+  if (!(grain > std::max(least * largest, more_than_rounding * rounding) && grain < most * largest))
     return std::nullopt;
+  if (wrongMotors(torques).size() < motor_count) return std::nullopt;
   const bool all = holdsForAll(
-      torques, [&](std::size_t k, int i) { return std::abs(offAt(torques, k, i)) <= grains * asked.grain; });
+      torques, [&](std::size_t k, int i) { return std::abs(offAt(torques, k, i)) <= grains * asked.grain(i); });
   if (!all) return std::nullopt;
   return ofDigits(
       fmt::format("single precision, or few digits, within the solver: answers to nearly the same question jump by "
                   "{:.2g} {}, {:.1g} of the largest, and none is off by more than {:g} times that",
-                  asked.grain, motors.unit(0), asked.grain / largest, grains));
+                  grain, motors.unit(0), grain / largest, grains));
 }
 
 /// Whether a motor's efforts are one number, where the right ones differ beyond their limits.
@@ -226,10 +225,10 @@ std::optional<Explanation> fewDigits(const MotorNames& motors, const ExternalTor
 
 double changedWhenAskedAgain(const ExternalTorques& torques, const AskedApart& asked) {
   constexpr double may_be_rounding = 2;  // the limits of both answers
-  double change = 0, largest = 0;
+  double change = 0, largest = torques.sizes.of(Rounded::torque);
   for (std::size_t k = 0; k < torques.file.rows(); ++k) {
     const Vector6d& answer = torques.file.torques[k];
-    largest = std::max({largest, torques.noc[k].cwiseAbs().maxCoeff(), answer.cwiseAbs().maxCoeff()});
+    largest = std::max(largest, answer.cwiseAbs().maxCoeff());
     const double growth = std::max(1.0, answer.norm() / std::max(torques.noc[k].norm(), 1e-300));
     for (std::size_t j = 0; j < asked.again.size(); ++j) {
       if (asked.again_t[j] != torques.file.t[k]) continue;

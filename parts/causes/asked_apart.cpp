@@ -79,10 +79,10 @@ Poses posesOf(const Manipulator& machine, const std::vector<Motion<double>>& mot
 
 /// Second differences of the answers to questions a few units of single precision apart; in double precision they are
 /// rounding.
-double grainOf(const Subject& subject, const Poses& poses) {
+Vector6d grainOf(const Subject& subject, const Poses& poses) {
   constexpr int steps = 8;
   constexpr double step = 2e-8;  // relative; a float's unit is 6e-8
-  double grain = 0;
+  Vector6d grain = Vector6d::Zero();
   for (std::size_t k = 0; k < poses.at.size(); ++k) {
     std::array<Vector6d, steps> answers;
     for (int j = 0; j < steps; ++j) {
@@ -93,7 +93,7 @@ double grainOf(const Subject& subject, const Poses& poses) {
       answers[static_cast<std::size_t>(j)] = subject.torques(near);
     }
     for (std::size_t j = 2; j < steps; ++j)
-      grain = larger(grain, (answers[j] - 2 * answers[j - 1] + answers[j - 2]).cwiseAbs().maxCoeff());
+      grain = grain.cwiseMax((answers[j] - 2 * answers[j - 1] + answers[j - 2]).cwiseAbs());
   }
   return grain;
 }
@@ -157,7 +157,7 @@ AskedApart askedApart(const Subject& subject, const Scenario& scenario, const st
   ConditioningProbe probe(*scenario.manipulator, scenario.load);
   for (std::size_t k = 0; k < found.size(); ++k)
     for (int question = rest; question < again; ++question) {
-      if (!found[k][static_cast<std::size_t>(question)].allFinite()) return {{}, {}, {}, {}, out.terms, 0};
+      if (!found[k][static_cast<std::size_t>(question)].allFinite()) return {{}, {}, {}, {}, out.terms};
       out.motions.push_back(asked(poses.at[k], static_cast<Question>(question), poses.v[k], poses.w[k]));
       out.found.push_back(found[k][static_cast<std::size_t>(question)]);
       out.expected.push_back(expected[k][static_cast<std::size_t>(question)]);

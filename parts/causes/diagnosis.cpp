@@ -54,12 +54,6 @@ std::string intervalText(const ExternalTorques& torques, const Deviating& off) {
   return fmt::format("{}, {} of {} instants", span, off.count, t.size());
 }
 
-double largestTorque(const ExternalTorques& torques) {
-  double largest = 0;
-  for (const Vector6d& row : torques.noc) largest = std::max(largest, row.cwiseAbs().maxCoeff());
-  return largest;
-}
-
 std::string amountText(const Deviating& leg, const char* unit, double largest_torque) {
   const std::string share =
       largest_torque > 0 ? fmt::format(" ({:.3g} % of the largest torque)", 100 * leg.largest / largest_torque) : "";
@@ -68,7 +62,7 @@ std::string amountText(const Deviating& leg, const char* unit, double largest_to
 
 /// Summary and details; empty if every leg is within its limits.
 Diagnosis deviationTexts(const MotorNames& motors, const ExternalTorques& torques) {
-  const double largest_torque = largestTorque(torques);
+  const double largest_torque = torques.sizes.of(Rounded::torque);
   std::string legs, details, right;
   const Deviating all = deviationOf(torques);
   double most = 0;
@@ -298,14 +292,6 @@ void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result) {
     if (check.verdict == Verdict::fail)
       check.off =
           fmt::format("Off: {}{}{}", diagnosis.summary, likely ? ". Likely cause: " : ": ", result.cause_words.cause);
-}
-
-void addLikelyCause(const Scenario& scenario, const TorqueFile& efforts, const Subject* solver,
-                    ValidationResult& result) {
-  std::vector<Motion<double>> motions;
-  for (const double t : efforts.t) motions.push_back(scenario.trajectory->at(t));
-  const AskedApart asked = solver != nullptr ? askedApart(*solver, scenario, motions) : AskedApart{};
-  addDiagnosis(diagnose(scenario, runExternal(scenario, efforts), asked), result);
 }
 
 }  // namespace ursula

@@ -7,7 +7,6 @@
 #include "model/scenario.h"
 #include "parts/causes/asked_apart.h"
 #include "validation/evidence/external_evidence.h"
-#include "validation/likely_cause.h"
 #include "validation/verdict/result.h"
 
 namespace ursula {
@@ -27,9 +26,6 @@ struct Diagnosis {
 /// Only for torques that exceed their limits somewhere; for exact ones everything is empty. A cause must also explain
 /// the solver's answers to separate questions.
 Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques, const AskedApart& asked = {});
-
-/// What this part adds to a verdict.
-AddLikelyCause addLikelyCause;
 
 /// Adds the likely cause, findings and texts of failed checks to the result, if there are any.
 void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result);

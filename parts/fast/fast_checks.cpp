@@ -37,42 +37,55 @@ double sizeOf(const Kernel& kernel, const Vector6d& v, double length) {
   return twistSize(v, length);
 }
 
+/// Says which of `count` answers are wrong, by their place; "" if none or all are.
+std::string partText(const std::vector<std::size_t>& wrong, std::size_t count) {
+  if (wrong.empty() || wrong.size() == count) return "";
+  const bool to_the_end = wrong.back() + 1 == count && wrong.back() - wrong.front() + 1 == wrong.size();
+  return fmt::format("; {} of {} answers are wrong, {} number {}{}", wrong.size(), count,
+                     to_the_end ? "from" : "the first is", wrong.front() + 1, to_the_end ? " on" : "");
+}
+
 Check judgeKernel(const Kernel& kernel, const FastSamples& fast, const std::vector<PointwiseSample>& samples,
-                  const Units& units) {
+                  const Units& units, double along) {
   const char* unit = kernel.unit == in_effort_units ? units.efforts.unit : kernel.unit;
   if (!fast.refused.empty()) return notMade(kernel.check, unit, "no answer: " + fast.refused);
   if (fast.answers.empty() || fast.samples.empty()) return notMade(kernel.check, unit, "no instant was compared");
   WorstShare worst;
   double size = 0;
-  std::string sets;
+  std::string sets, wrong_part;
   for (std::size_t s = 0; s < fast.answers.size(); ++s) {
     const FastAnswers& answers = fast.answers[s];
     sets += (s == 0 ? "" : ", ") + std::string(nameOf(answers.set));
     const std::vector<Vector6d>& found = answers.*kernel.answers;
     if (found.size() < fast.samples.size()) return notMade(kernel.check, unit, "answers are missing");
+    std::vector<std::size_t> wrong;
     for (std::size_t k = 0; k < found.size(); ++k) {
       const std::size_t instant = k % fast.samples.size();
       const PointwiseSample& sample = samples[fast.samples[instant]];
       const Conditioning& at = sample.conditioning;
       const Vector6d& expected = (fast.*kernel.expected)[instant];
       size = std::max(size, sizeOf(kernel, expected, at.length));
-      worst.add(sizeOf(kernel, found[k] - expected, at.length), 2 * at.rounding(kernel.rounded), sample.motion.t,
-                static_cast<int>(s));
+      const double error = sizeOf(kernel, found[k] - expected, at.length), limit = 2 * at.rounding(kernel.rounded);
+      worst.add(error, limit, sample.motion.t, static_cast<int>(s));
+      if (!(error <= limit)) wrong.push_back(k);
     }
+    if (wrong_part.empty()) wrong_part = partText(wrong, found.size());
   }
   const auto setOf = [&](int where) { return nameOf(fast.answers[static_cast<std::size_t>(where)].set); };
-  return judgedShown({kernel.check, unit, size}, worst, units,
+  return judgedShown({kernel.check, unit, std::max(size, along), 0, size, along}, worst, units,
                      {"twice the rounding of the NOC: both sides round",
                       fmt::format("{} by the fast kernels against the NOC, at {} instants, with {}", kernel.what,
                                   fast.samples.size(), sets),
-                      setOf, causeOfRounding(samples, worst.widest_t, kernel.rounded)});
+                      setOf, causeOfRounding(samples, worst.widest_t, kernel.rounded), wrong_part});
 }
 
 }  // namespace
 
-std::vector<Check> judgeFast(const FastSamples& fast, const std::vector<PointwiseSample>& samples, const Units& units) {
+std::vector<Check> judgeFast(const FastSamples& fast, const std::vector<PointwiseSample>& samples, const Units& units,
+                             const MotionSizes& sizes) {
   std::vector<Check> out;
-  for (const Kernel& kernel : kernels) out.push_back(judgeKernel(kernel, fast, samples, units));
+  for (const Kernel& kernel : kernels)
+    out.push_back(judgeKernel(kernel, fast, samples, units, sizes.of(kernel.rounded)));
   return out;
 }
 
@@ -101,7 +114,7 @@ void addFastFamilies(std::vector<CheckFamily>& rows) {
   CheckFamily fast = {"fast kernels",
                       {"fast.inverse", "fast.direct", "fast.inverse_batch", "fast.direct_batch"},
                       kernelsAsked,
-                      [](const Evidence& e) { return judgeFast(fastOf(e), e.samples, e.units()); }};
+                      [](const Evidence& e) { return judgeFast(fastOf(e), e.samples, e.units(), sizesOf(e)); }};
   fast.ask = askKernels;
   rows.push_back(fast);
 }

@@ -11,7 +11,8 @@ namespace ursula {
 
 /// Compares the kernels that users call, with every instruction set of the processor, with the NOC: `fast.inverse`,
 /// `fast.direct`, `fast.inverse_batch`, `fast.direct_batch`. `fast` is at `samples`.
-std::vector<Check> judgeFast(const FastSamples& fast, const std::vector<PointwiseSample>& samples, const Units& units);
+std::vector<Check> judgeFast(const FastSamples& fast, const std::vector<PointwiseSample>& samples, const Units& units,
+                             const MotionSizes& sizes = {});
 
 /// Adds the family of these checks, with its experiment, to checkFamilies().
 void addFastFamilies(std::vector<CheckFamily>& rows);

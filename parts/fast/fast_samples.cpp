@@ -8,8 +8,9 @@ namespace ursula {
 namespace {
 
 constexpr std::size_t most_instants = 500;
-/// Size of a batch that repeats the same instants: larger than any kernel's block, and no multiple of its lanes.
-constexpr std::size_t in_batch = 4099;
+/// Size of a batch that repeats the same instants: many threads' shares and blocks of this program's own batches (512
+/// poses), as users' are, and no multiple of a kernel's lanes.
+constexpr std::size_t in_batch = 32771;
 
 /// The questions to all kernels, in SI as users ask them; loads only if there is one.
 struct Questions {

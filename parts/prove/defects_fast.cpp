@@ -35,12 +35,13 @@ Defect ofLegs(const char* name, const std::function<void(FastLeg&)>& change) {
 
 using Answers = std::vector<Vector6d> FastAnswers::*;
 
-/// Changes one kind of answer of one instruction set; has no effect if the processor lacks the set.
-Defect answers(const std::string& name, InstructionSet set, Answers of, const std::function<void(Vector6d&)>& change) {
+/// Changes one kind of answer of one instruction set, from the pose `first` on; has no effect if the processor lacks
+/// the set.
+Defect answers(const std::string& name, InstructionSet set, Answers of, const std::function<void(Vector6d&)>& change,
+               std::size_t first = 0) {
   FastFault fault;
-  fault.answers = [set, of, change](FastAnswers& found) {
-    if (found.set != set) return;
-    for (Vector6d& each : found.*of) change(each);
+  fault.answers = [set, of, change, first](FastAnswers& found) {
+    for (std::size_t k = first; found.set == set && k < (found.*of).size(); ++k) change((found.*of)[k]);
   };
   return wrongFast(name, fault);
 }
@@ -74,7 +75,8 @@ std::vector<Defect> fastDefects(const Manipulator&) {
     const std::string with = std::string("fast, ") + nameOf(set) + ": ";
     append(out, {answers(with + "efforts times 1.001", set, &FastAnswers::torques, scaled),
                  answers(with + "accelerations times 1.001", set, &FastAnswers::accelerations, scaled),
-                 answers(with + "batch's efforts times 1.001", set, &FastAnswers::torques_in_batch, scaled),
+                 answers(with + "batch's efforts times 1.001 from pose 5,000 on", set, &FastAnswers::torques_in_batch,
+                         scaled, 5000),
                  answers(with + "batch's effort of motor 1 times 1 + 1e-7", set, &FastAnswers::torques_in_batch, first),
                  answers(with + "batch's accelerations times 1.001", set, &FastAnswers::accelerations_in_batch, scaled),
                  answers(with + "batch without answers", set, &FastAnswers::torques_in_batch, lost)});

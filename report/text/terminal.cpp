@@ -123,11 +123,11 @@ std::string notApplicableText(const std::vector<Check>& checks) {
   std::map<std::string, std::string> names;  // keyed by reason
   for (const Check& check : checks) {
     if (isShown(check)) continue;
-    std::string& of = names[check.why];
+    std::string& of = names[check.reason == Reason::not_covered ? check.why : "not applicable, since " + check.why];
     of += (of.empty() ? "" : ", ") + check.name;
   }
   std::string out;
-  for (const auto& [why, which] : names) out += wrapped(fmt::format("not applicable, since {}: ", why), 2, which);
+  for (const auto& [why, which] : names) out += wrapped(why + ": ", 2, which);
   return out.empty() ? "" : "\n" + out;
 }
 

@@ -95,8 +95,12 @@ std::string reason(Verdict verdict, const std::vector<Check>& checks) {
       std::count_if(checks.begin(), checks.end(), [](const Check& check) { return check.limit_by == LimitBy::user; });
   const std::string whose =
       by_user == 0 ? "" : fmt::format(", {} at the user's limits, wider than the derived ones", by_user);
-  return fmt::format("{} of {} held{}; the closest to its limit, {}, {}.", count, plural(total), whose, worst.name,
-                     standing(worst));
+  const auto uncovered = std::count_if(checks.begin(), checks.end(), [](const Check& check) {
+    return check.verdict == Verdict::not_applicable && check.reason == Reason::not_covered;
+  });
+  const std::string rest = uncovered == 0 ? "" : fmt::format("; {} not covered, since nothing moves", uncovered);
+  return fmt::format("{} of {} held{}{}; the closest to its limit, {}, {}.", count, plural(total), whose, rest,
+                     worst.name, standing(worst));
 }
 
 namespace {

@@ -7,6 +7,8 @@ add_executable(witness_tests
   judge_ladder_test.cpp
   ladder_test.cpp
   engines_test.cpp
+  motion_sizes_test.cpp
+  places_test.cpp
   windows_test.cpp
 )
 target_link_libraries(witness_tests PRIVATE

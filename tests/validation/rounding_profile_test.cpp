@@ -209,8 +209,8 @@ TEST(ProfileAt, hasAFloorThatIsASmallShareOfTheQuantity) {
   EXPECT_GT(held, 0);
 }
 
-TEST(ProfileInstants, areAtMostThoseOfTheSamples) {
-  EXPECT_EQ(profileInstants(1), 2);
+TEST(ProfileInstants, areEnoughAlsoForFewSamples) {
+  EXPECT_EQ(profileInstants(2), 21);
   EXPECT_EQ(profileInstants(31), 31);
   EXPECT_EQ(profileInstants(301), 61);
 }

@@ -148,9 +148,10 @@ TEST_P(Shared, theLadderIsTheOneClimbedAlone) {
 TEST_P(Shared, theStabilisedReplayStandsForTheSameTorquesOnly) {
   const StabilisedReplay& known = reference_->stabilised();
   const auto judge = [&](const Subject& subject, const StabilisedReplay* with) {
-    const auto samples = runPointwise(here(), subject, reference_->instants, reference_->rounding().profile);
-    return judgeStabilised(stabilisedReplay(here(), subject, reference_->replays().amplification, samples, with),
-                           largestTorque(samples));
+    const RoundingAlong& rounding = reference_->rounding();
+    return judgeStabilised(
+        stabilisedReplay(here(), subject, reference_->replays().amplification, rounding.along(), with),
+        rounding.profile.sizes().of(Rounded::torque));
   };
   const Check alone = judge(solverOf(here()), nullptr), shared = judge(solverOf(here()), &known);
   EXPECT_EQ(alone.verdict, Verdict::pass);

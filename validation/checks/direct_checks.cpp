@@ -35,8 +35,9 @@ Check judgeAccelerations(const char* check, const char* what, const std::functio
     return notMade(check, "m/s^2", std::string("no answer: ") + error.what());
   }
   if (!worst.any) return notMade(check, "m/s^2", "no state was compared");
+  const double along = profile.sizes().of(Rounded::direct);
   return judgedShown(
-      {check, "m/s^2", size}, worst, units,
+      {check, "m/s^2", std::max(size, along), 0, size, along}, worst, units,
       {fmt::format("eps (|| T_P inv(I) || x the torque's and the platform's compliance x the forces that close the "
                    "loops) x {:g} x the spread measured over frames and changed inputs",
                    rounding_safety),

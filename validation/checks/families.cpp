@@ -27,11 +27,10 @@ std::vector<std::string> checksOfFurtherEngines() {
 }
 
 const RoundingProfile& profileOf(const Evidence& e) { return e.reference->rounding().profile; }
-
 std::vector<Check> judgeMotion(const Evidence& e) { return judgeCommandedMotion(*e.given); }
 
 std::vector<Check> judgeSamples(const Evidence& e) {
-  std::vector<Check> checks = judgePointwise(e.samples, e.has.kinematics, e.units());
+  std::vector<Check> checks = judgePointwise(e.samples, e.has.kinematics, e.units(), sizesOf(e));
   if (e.external == nullptr) return checks;
   checks.push_back(judgeAgainstNoc(*e.external, e.units()));
   for (Check& check : checks) check.basis += e.external->precisionInWords(e.units());
@@ -103,7 +102,7 @@ void lookAtLadder(Evidence& e) {
 }
 
 std::vector<Check> judgeStabilisedReplay(const Evidence& e) {
-  return {judgeStabilised(*e.stabilised, largestTorque(e.samples), e.units())};
+  return {judgeStabilised(*e.stabilised, sizesOf(e).of(Rounded::torque), e.units())};
 }
 
 template <class T>
@@ -127,7 +126,7 @@ std::vector<CheckFamily> familiesOfCore() {
        sampled,
        judgeSamples},
       {"formulations", checksOfFurtherEngines(), [](E e) { return answers(e) && !e.engines.empty(); },
-       [](E e) { return judgeEngines(e.engines, e.units(), e.samples); }},
+       [](E e) { return judgeEngines(e.engines, e.units(), e.samples, sizesOf(e)); }},
       {"complement",
        {"complement.orthogonality", "complement.rank"},
        [](E e) { return !e.complement.empty(); },
@@ -161,6 +160,8 @@ std::vector<CheckFamily> familiesOfCore() {
 }
 
 }  // namespace
+
+const MotionSizes& sizesOf(const Evidence& e) { return e.reference ? profileOf(e).sizes() : e.external->sizes; }
 
 const std::vector<CheckFamily>& checkFamilies() {
   static const std::vector<CheckFamily> families = [] {

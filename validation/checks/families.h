@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "validation/evidence/evidence.h"
+#include "validation/limits/motion_sizes.h"
 #include "validation/verdict/result.h"
 
 namespace ursula {
@@ -32,6 +33,9 @@ std::vector<CheckFamily> partFamilies();
 
 /// What the families of parts ask at the samples.
 std::vector<Witness> witnesses();
+
+/// The sizes along the whole motion, for a subject or a file.
+const MotionSizes& sizesOf(const Evidence& evidence);
 
 /// Converts checks from natural units to SI.
 void checksInSi(const Units& units, std::vector<Check>& checks);

@@ -35,7 +35,7 @@ WorstShare compareEngines(const std::vector<EngineSample>& samples, const PairOf
 
 /// Judges the k-th further formulation.
 Check judgeEngine(const std::vector<EngineSample>& samples, std::size_t k, const Units& units,
-                  const std::vector<PointwiseSample>& conditions) {
+                  const std::vector<PointwiseSample>& conditions, double along) {
   const EngineKind& kind = furtherEngines()[k];
   if (samples.empty()) return notMade(kind.check, units.efforts.unit, "no instant was compared");
   const WorstShare worst = compareEngines(samples, [k](const EngineSample& sample) {
@@ -44,7 +44,7 @@ Check judgeEngine(const std::vector<EngineSample>& samples, std::size_t k, const
   double torque = 0;
   for (const EngineSample& sample : samples) torque = std::max(torque, sample.further[k]->cwiseAbs().maxCoeff());
   return judgedShown(
-      {kind.check, units.efforts.unit, torque}, worst, units,
+      {kind.check, units.efforts.unit, std::max(torque, along), 0, torque, along}, worst, units,
       {fmt::format(
            "eps kappa(B) kappa(legs) x || |T|' |w| || x {:g} x the spread measured over frames and changed inputs",
            rounding_safety),
@@ -98,11 +98,11 @@ std::vector<Named> enginesOf(const EngineSample& first) {
 }  // namespace
 
 std::vector<Check> judgeEngines(const std::vector<EngineSample>& samples, const Units& units,
-                                const std::vector<PointwiseSample>& conditions) {
+                                const std::vector<PointwiseSample>& conditions, const MotionSizes& sizes) {
   std::vector<Check> checks;
   for (std::size_t k = 0; k < furtherEngines().size(); ++k)
     if (samples.empty() ? furtherEngines()[k].available() : samples.front().further[k].has_value())
-      checks.push_back(judgeEngine(samples, k, units, conditions));
+      checks.push_back(judgeEngine(samples, k, units, conditions, sizes.of(Rounded::torque)));
   return checks;
 }
 
@@ -143,7 +143,9 @@ Check judgeAgainstNoc(const ExternalTorques& torques, const Units& units) {
     worst.addEach(sample.torques - torques.noc[k], sample.torqueLimits(), sample.motion.t);
     quantity.given = std::max(quantity.given, sample.torques_given.maxCoeff());
   }
-  quantity.size = largestTorque(torques.samples);
+  quantity.seen = largestTorque(torques.samples);
+  quantity.along = torques.sizes.of(Rounded::torque);
+  quantity.size = std::max(quantity.seen, quantity.along);
   if (!worst.any) return notMade(quantity.name, quantity.unit, "no instant was compared");
   return judgedShown(quantity, worst, units,
                      {"as for torque.pointwise",

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "validation/samples/pointwise.h"
 
 namespace ursula {
@@ -43,7 +45,8 @@ Check judgeInvariance(const InvarianceSamples& sides, const std::vector<Pointwis
     worst.add(error, look.limit(error, sample.conditioning, Rounded::solver, sample.motion, 2), sample.motion.t,
               static_cast<int>(leg));
   }
-  return judgedShown({words.check, units.efforts.unit, largestTorque(samples)}, worst, units,
+  const double seen = largestTorque(samples), along = profile.sizes().of(Rounded::torque);
+  return judgedShown({words.check, units.efforts.unit, std::max(seen, along), 0, seen, along}, worst, units,
                      {"twice the solver's own rounding: both sides round",
                       fmt::format("{}, at {} instants", words.what, samples.size()), motorsOf(units),
                       causeOfRounding(samples, worst.widest_t)});

@@ -52,17 +52,18 @@ std::vector<Check> judgeCommandedMotion(const Scenario& scenario);
 std::vector<Check> judgeTrajectory(const Trajectory& trajectory, double length, const HiddenTerms& hidden);
 
 /// The checks of these samples: `kinematics.*`, `torque.pointwise`, `acceleration.pointwise`. `units` convert the
-/// samples to SI for the words.
+/// samples to SI for the words; `sizes` are the motion's, here and below.
 std::vector<Check> judgePointwise(const std::vector<PointwiseSample>& samples, bool has_kinematics,
-                                  const Units& units = {});
+                                  const Units& units = {}, const MotionSizes& sizes = {});
 
 /// For samples of runJointsAndTorques: `kinematics.joint_*` and `torque.pointwise`, by their derived limits.
-std::vector<Check> judgeJointsAndTorques(const std::vector<PointwiseSample>& samples, const Units& units = {});
+std::vector<Check> judgeJointsAndTorques(const std::vector<PointwiseSample>& samples, const Units& units = {},
+                                         const MotionSizes& sizes = {});
 
 /// Compares the subject with each further formulation of this build: `torque.twin`, `torque.maximal`, `torque.mujoco`.
 /// `conditions`, at the same instants, explain wide limits; without them nothing does.
 std::vector<Check> judgeEngines(const std::vector<EngineSample>& samples, const Units& units = {},
-                                const std::vector<PointwiseSample>& conditions = {});
+                                const std::vector<PointwiseSample>& conditions = {}, const MotionSizes& sizes = {});
 
 /// Finds which formulation contradicts the others; each pair has its own limit.
 OddOne oddOneOut(const std::vector<EngineSample>& samples);

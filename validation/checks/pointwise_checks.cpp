@@ -21,8 +21,8 @@ struct Quantity {
   const char* shape;  ///< of the limit, in words; multiplied by eps and a level
   Deviation PointwiseSample::*deviation;
   bool of_body;
-  std::function<double(const PointwiseSample&)> size;  ///< size of the quantity itself
-  const char* further = "";                            ///< further terms of the limit, in words
+  Rounded rounded, about;    ///< itself, and what must be there to be compared
+  const char* further = "";  ///< further terms of the limit, in words
 };
 
 /// The level is measured (RoundingProfile) or derived (rounding_depth).
@@ -33,18 +33,26 @@ std::string basisOf(const Quantity& quantity, Level level) {
              : fmt::format("eps {} x {:g}, what roundings add up to at most", quantity.shape, rounding_depth);
 }
 
+/// Whether a held pose has nothing of it.
+bool isOfMotion(Rounded quantity) {
+  using R = Rounded;
+  static constexpr R those[] = {R::rates, R::accelerations, R::twists, R::twist_rates, R::jacobian, R::jacobian_rate};
+  return std::find(std::begin(those), std::end(those), quantity) != std::end(those);
+}
+
 /// Stands for the unit of the machine's efforts; `where` is then a motor.
 constexpr const char* of_efforts = "";
 
 Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quantity, const Units& units,
-                    Level level = Level::measured) {
+                    const MotionSizes& sizes, Level level = Level::measured) {
   const bool is_effort = quantity.unit == of_efforts;
   if (is_effort) quantity.unit = units.efforts.unit;
   const auto nameOf = [&](int where) {
     return is_effort ? motorName(units, where) : placeName(where, quantity.of_body);
   };
   WorstShare worst;
-  CheckedQuantity of{quantity.name, quantity.unit};
+  CheckedQuantity of{quantity.name, quantity.unit, sizes.of(quantity.rounded)};
+  of.seen = 0, of.along = sizes.of(quantity.about), of.of_motion = isOfMotion(quantity.about);
   for (const PointwiseSample& sample : samples) {
     if (!sample.refused.empty()) return notMade(quantity.name, quantity.unit, "no answer: " + sample.refused);
     const Deviation& deviation = sample.*quantity.deviation;
@@ -52,7 +60,8 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quanti
       worst.addEach(sample.torques - sample.torques_simbody, sample.torqueLimits(), sample.motion.t);
     else
       worst.add(deviation.error, deviation.limit, sample.motion.t, deviation.where);
-    of.size = std::max(of.size, quantity.size(sample));
+    of.size = std::max(of.size, sample.conditioning.size(quantity.rounded));
+    of.seen = std::max(of.seen, sample.conditioning.size(quantity.about));
     of.given = std::max(of.given, is_effort ? sample.torques_given.maxCoeff() : deviation.given);
   }
   if (!worst.any) return notMade(quantity.name, quantity.unit, "no instant was compared");
@@ -67,31 +76,27 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quanti
 
 const std::vector<Quantity>& kinematicQuantities() {
   using S = PointwiseSample;
-  const auto spin = [](const S& s) { return s.conditioning.twist_scale; };
-  const auto rate = [](const S& s) { return s.conditioning.rate_scale; };
+  using R = Rounded;
   static const std::vector<Quantity> quantities = {
       {"kinematics.joint_angles", "rad", "joint coordinates against Simbody's loop placed by geometry",
-       "kappa(legs) x largest coordinate / length", &S::joint_angles, false, [](const S&) { return 1.0; }},
+       "kappa(legs) x largest coordinate / length", &S::joint_angles, false, R::angles, R::angles},
       {"kinematics.joint_rates", "rad/s", "their rates against Simbody's constraint Jacobian",
-       "kappa(legs) kappa(B) x velocity / length", &S::joint_rates, false,
-       [spin](const S& s) { return spin(s) / s.conditioning.length; }},
+       "kappa(legs) kappa(B) x velocity / length", &S::joint_rates, false, R::rates, R::rates},
       {"kinematics.joint_accelerations", "rad/s^2", "their accelerations against Simbody's constraints",
-       "kappa(legs)^2 kappa(B) x acceleration / length", &S::joint_accelerations, false,
-       [rate](const S& s) { return rate(s) / s.conditioning.length; }},
+       "kappa(legs)^2 kappa(B) x acceleration / length", &S::joint_accelerations, false, R::accelerations,
+       R::accelerations},
       {"kinematics.positions", "m", "mass centres and orientations of all bodies, Simbody put into the joint state",
-       "kappa(legs) x largest coordinate", &S::position, true,
-       [](const S& s) { return s.conditioning.position_scale; }},
+       "kappa(legs) x largest coordinate", &S::position, true, R::positions, R::positions},
       {"kinematics.twists", "m/s", "twists of all bodies, (16), (41)", "kappa(legs) kappa(B) x velocity", &S::twist,
-       true, spin},
+       true, R::twists, R::twists},
       {"kinematics.accelerations", "m/s^2", "twist rates of all bodies, (17), (43)",
-       "kappa(legs)^2 kappa(B) x acceleration", &S::twist_rate, true, rate},
+       "kappa(legs)^2 kappa(B) x acceleration", &S::twist_rate, true, R::twist_rates, R::twist_rates},
       {"kinematics.jacobian", "m/s", "t_P = T phi_dot (24) with Simbody's joint rates",
-       "kappa(legs) kappa(B)^2 x velocity", &S::jacobian, true, spin},
+       "kappa(legs) kappa(B)^2 x velocity", &S::jacobian, true, R::jacobian, R::jacobian},
       {"kinematics.jacobian_rate", "m/s^2", "T phi_ddot + T_dot phi_dot (25) with Simbody's joint motion",
-       "kappa(legs)^2 kappa(B)^2 x acceleration", &S::jacobian_rate, true, rate},
+       "kappa(legs)^2 kappa(B)^2 x acceleration", &S::jacobian_rate, true, R::jacobian_rate, R::jacobian_rate},
       {"kinematics.jacobian_difference", "m/s", "T_dot against five-point differences of T along the motion",
-       "kappa(legs) kappa(B) x ||T|| x 1.5 / step", &S::jacobian_difference, true,
-       [spin](const S& s) { return s.conditioning.shaping_scale * (1 + spin(s) / s.conditioning.length); },
+       "kappa(legs) kappa(B) x ||T|| x 1.5 / step", &S::jacobian_difference, true, R::shaping_rate, R::twists,
        ", and what doubling the step changes"},
   };
   return quantities;
@@ -99,13 +104,13 @@ const std::vector<Quantity>& kinematicQuantities() {
 
 const std::vector<Quantity>& dynamicQuantities() {
   using S = PointwiseSample;
-  const auto torque = [](const S& s) { return s.torques_simbody.cwiseAbs().maxCoeff(); };
+  using R = Rounded;
   static const std::vector<Quantity> quantities = {
       {"torque.pointwise", of_efforts, "torques against Simbody's own inverse dynamics",
-       "kappa(B) kappa(legs) x || |T|' |w| ||", &S::torque, false, torque},
+       "kappa(B) kappa(legs) x || |T|' |w| ||", &S::torque, false, R::torque, R::torque},
       {"acceleration.pointwise", "m/s^2", "Simbody's accelerations of the platform under the torques, commanded state",
        "(|| T_P inv(I) || x the torque's and the platform's compliance x the forces that close the loops)",
-       &S::acceleration, true, [torque](const S& s) { return s.conditioning.response * torque(s); }},
+       &S::acceleration, true, R::acceleration, R::acceleration},
   };
   return quantities;
 }
@@ -133,20 +138,23 @@ std::function<std::string(int where)> motorsOf(const Units& units) {
   return [&units](int where) { return motorName(units, where); };
 }
 
-std::vector<Check> judgeJointsAndTorques(const std::vector<PointwiseSample>& samples, const Units& units) {
+std::vector<Check> judgeJointsAndTorques(const std::vector<PointwiseSample>& samples, const Units& units,
+                                         const MotionSizes& sizes) {
   std::vector<Check> checks;
   for (const auto* quantities : {&kinematicQuantities(), &dynamicQuantities()})
     for (const Quantity& quantity : *quantities)
-      if (isOfJointsOrTorque(quantity)) checks.push_back(judgeQuantity(samples, quantity, units, Level::derived));
+      if (isOfJointsOrTorque(quantity))
+        checks.push_back(judgeQuantity(samples, quantity, units, sizes, Level::derived));
   return checks;
 }
 
-std::vector<Check> judgePointwise(const std::vector<PointwiseSample>& samples, bool has_kinematics,
-                                  const Units& units) {
+std::vector<Check> judgePointwise(const std::vector<PointwiseSample>& samples, bool has_kinematics, const Units& units,
+                                  const MotionSizes& sizes) {
   std::vector<Check> checks;
   if (has_kinematics)
-    for (const Quantity& quantity : kinematicQuantities()) checks.push_back(judgeQuantity(samples, quantity, units));
-  for (const Quantity& quantity : dynamicQuantities()) checks.push_back(judgeQuantity(samples, quantity, units));
+    for (const Quantity& quantity : kinematicQuantities())
+      checks.push_back(judgeQuantity(samples, quantity, units, sizes));
+  for (const Quantity& quantity : dynamicQuantities()) checks.push_back(judgeQuantity(samples, quantity, units, sizes));
   return checks;
 }
 
@@ -182,6 +190,7 @@ std::vector<Check> judgeComplement(const std::vector<ComplementSample>& samples,
 Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::vector<PointwiseSample>& samples,
                      const RoundingProfile& profile, const Units& units) {
   RemeasuredLimits look(profile);
+  const double along = profile.sizes().of(Rounded::reactions);
   double size = 0;
   WorstShare worst;
   for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -197,7 +206,7 @@ Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::ve
   }
   if (!worst.any) return notMade("reactions.pointwise", "N", "no instant was compared");
   return judgedShown(
-      {"reactions.pointwise", "N", size}, worst, units,
+      {"reactions.pointwise", "N", std::max(size, along), 0, size, along}, worst, units,
       {fmt::format(
            "eps (kappa(B)^2 kappa(legs) x || |T|' |w| || / length + largest mass x the acceleration's) x {:g} x "
            "the spread measured over frames and changed inputs",

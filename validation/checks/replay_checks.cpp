@@ -197,7 +197,7 @@ Check judgeStabilised(const StabilisedReplay& found, double largest, const Units
       stopped);
   WorstShare worst;
   worst.add(found.torque, found.limit, found.t);
-  Check out = judgedIfUseful({check, units.efforts.unit, largest}, worst, basis, why, cause);
+  Check out = judgedIfUseful({check, units.efforts.unit, largest, 0, largest, largest}, worst, basis, why, cause);
   if (found.torque <= found.limit && found.too_long)
     out = notJudgeable(Reason::unfinished, check, found.torque, found.limit, units.efforts.unit, basis, why);
   out.largest = {found.torque, found.t * units.time, ""};

@@ -133,9 +133,10 @@ void sortByTime(std::vector<Answered>& answers) {
 
 /// `what` says what was compared.
 Check checkOf(const Comparison& comparison, const std::string& what, double gap,
-              const std::vector<PointwiseSample>& samples, const Units& units) {
+              const std::vector<PointwiseSample>& samples, double along, const Units& units) {
   const WorstShare& worst = comparison.worst();
-  const CheckedQuantity quantity{check_name, units.efforts.unit, comparison.size()};
+  const double seen = comparison.size();
+  const CheckedQuantity quantity{check_name, units.efforts.unit, std::max(seen, along), 0, seen, along};
   Check check = judgedShown(
       quantity, worst, units,
       {"as for torque.pointwise, at each instant", what, motorsOf(units), causeOfRounding(samples, worst.widest_t),
@@ -173,7 +174,7 @@ Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::
   const char* other = subject.formulation == Formulation::noc ? "Simbody's" : "the NOC's";
   return checkOf(comparison,
                  fmt::format("torques against {}, at {} instants between the samples", other, instants.size()),
-                 widestGap(instants, duration), samples, units);
+                 widestGap(instants, duration), samples, profile.sizes().of(Rounded::torque), units);
 }
 
 Check judgeAnswers(const Scenario& scenario, std::vector<Answered> answers, const std::vector<PointwiseSample>& samples,
@@ -182,7 +183,8 @@ Check judgeAnswers(const Scenario& scenario, std::vector<Answered> answers, cons
   for (const Answered& answer : answers) comparison.add(answer);
   sortByTime(answers);
   return checkOf(comparison, "every answer that it gave against the NOC's, at its own instant",
-                 widestGap(answers, scenario.trajectory->duration()), samples, units);
+                 widestGap(answers, scenario.trajectory->duration()), samples, profile.sizes().of(Rounded::torque),
+                 units);
 }
 
 }  // namespace ursula

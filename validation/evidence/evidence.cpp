@@ -79,9 +79,10 @@ void runReplays(bool ladder, Evidence& evidence) {
                                              rungSettings(evidence), reference.deadline);
     evidence.orders = fault.lower_order ? observedOrders(scenario, true, reference.deadline) : reference.orders();
   }
-  evidence.stabilised = stabilisedReplay(
-      fault.feedback ? fault.feedback(scenario) : scenario, *evidence.subject, reference.replays().amplification,
-      evidence.samples, first_is_right && !fault.feedback ? &reference.stabilised() : nullptr, reference.deadline);
+  evidence.stabilised =
+      stabilisedReplay(fault.feedback ? fault.feedback(scenario) : scenario, *evidence.subject,
+                       reference.replays().amplification, reference.rounding().along(),
+                       first_is_right && !fault.feedback ? &reference.stabilised() : nullptr, reference.deadline);
 }
 
 /// Runs every experiment at the samples. Their shares of the work were measured with many samples.

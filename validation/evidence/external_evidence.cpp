@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 
+#include "validation/evidence/reference.h"
 #include "validation/replay/windows.h"
 #include "validation/subject/subject.h"
 #include "validation/subject/torque_spline.h"
@@ -52,7 +53,10 @@ ExternalTorques runExternal(const Scenario& scenario, const TorqueFile& file, co
     const auto row = std::lower_bound(out.file.t.begin(), out.file.t.end(), motion.t) - out.file.t.begin();
     return out.file.torques.at(static_cast<std::size_t>(row));
   };
-  out.samples = runPointwise(scenario, subject, out.file.t, deadline);
+  const RoundingProfile profile(scenario, profileInstants(static_cast<int>(out.file.rows())), deadline);
+  out.sizes = profile.sizes();
+  out.samples =
+      runPointwise(scenario, subject, out.file.t, profile, simbodyAnswers(scenario, out.file.t, deadline), deadline);
   for (std::size_t k = 0; k < out.file.rows(); ++k) {
     deadline.require();
     const double t = out.file.t[k];
@@ -76,12 +80,7 @@ class SplineLimit {
               const Deadline& deadline)
       : t_(torques.file.t), grid_(std::move(grid)) {
     const RoundingProfile profile(scenario, profileInstants(static_cast<int>(grid_.size())), deadline);
-    for (double t : grid_) {
-      deadline.require();
-      conditioning_.push_back(profile.at(scenario.trajectory->at(t)));
-      position_scale_ = std::max(position_scale_, conditioning_.back().position_scale);
-      forces_.include(conditioning_.back());
-    }
+    conditions_ = conditionsAt(scenario, grid_, profile, deadline);
     const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
     interpolation_ = interpolationErrors(t_, [&](double t) { return noc.torques(scenario.trajectory->at(t)); });
     std::vector<double> norms;
@@ -95,15 +94,14 @@ class SplineLimit {
     const auto k = std::min(static_cast<std::size_t>(std::lround(t / h)), grid_.size() - 1);
     double response = 0, rounding = 0;
     for (std::size_t j = k == 0 ? 0 : k - 1; j <= std::min(k + 1, grid_.size() - 1); ++j) {
-      response = std::max(response, conditioning_[j].response);
-      rounding = std::max(rounding, conditioning_[j].accelerationRounding());
+      response = std::max(response, conditions_[j].conditioning.response);
+      rounding = std::max(rounding, conditions_[j].conditioning.accelerationRounding());
     }
     return rounding + response * splineError(t - h, t + h);
   }
 
-  double positionScale() const { return position_scale_; }
-  const LoopForces& forces() const { return forces_; }
-  double length() const { return conditioning_.front().length; }
+  const std::vector<Conditions>& conditions() const { return conditions_; }  ///< at the grid
+  double length() const { return conditions_.front().conditioning.length; }
   double largestInterpolation() const { return *std::max_element(interpolation_.begin(), interpolation_.end()); }
   double largestOfDigits() const { return *std::max_element(digits_.begin(), digits_.end()); }
 
@@ -121,10 +119,8 @@ class SplineLimit {
   }
 
   std::vector<double> t_, grid_;
-  std::vector<Conditioning> conditioning_;
+  std::vector<Conditions> conditions_;
   std::vector<double> interpolation_, digits_;  ///< N·m, one per interval of t_
-  double position_scale_ = 0;
-  LoopForces forces_;
 };
 
 /// Returns why no spline covers the whole motion; empty if one does.
@@ -177,7 +173,7 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   plan.torques = [spline](double t) { return (*spline)(t); };
   plan.acceleration = [limit](double t) { return (*limit)(t); };
   plan.deadline = deadline;
-  plan.position_scale = limit->positionScale();
+  plan.position_scale = positionScale(limit->conditions());
   plan.step_rate = std::max(plannedStepRate(duration), 2 * knot_rate);
   plan.tolerance = reachableTolerance(scenario, plan.step_rate);
   plan.max_evaluations = enoughEvaluations(scenario, plan.step_rate);
@@ -198,8 +194,8 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   }
   out.plan = plan;
   out.windows = replayInWindows(scenario, plan, windows);
-  measureOpening(torques.samples, out.windows);
-  out.scales = {limit->positionScale(), limit->length(), limit->forces()};
+  measureOpening(limit->conditions(), out.windows);
+  out.scales = {plan.position_scale, limit->length(), loopForces(limit->conditions())};
   out.spline = basis;
   return out;
 }

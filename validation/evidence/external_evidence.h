@@ -23,6 +23,7 @@ struct ExternalTorques {
   /// Against Simbody. Their `torques_given` is the uncertainty of the printed numbers: the torque's, and the instant's
   /// times τ̇.
   std::vector<PointwiseSample> samples;
+  MotionSizes sizes;  ///< of the whole motion
 
   /// The largest entry of `torques_given`, N·m.
   double largestPrecision() const;

@@ -1,6 +1,7 @@
 #include "validation/evidence/reference.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "model/instants.h"
 #include "validation/replay/observed_order.h"
@@ -12,6 +13,24 @@ namespace {
 FrameChange checked(const Scenario& given) {
   checkMotion(given);
   return naturalFrameChange(given);
+}
+
+/// The instants and the telling ones; none if the instants alone show the motion.
+std::vector<double> denserInstants(const PreparedScenario& of, const std::vector<Conditions>& conditions,
+                                   const MotionSizes& sizes) {
+  constexpr double may_miss = 0.5;  // of a size: limits have the room
+  const auto shown = [&](Rounded quantity) {
+    return std::any_of(conditions.begin(), conditions.end(), [&](const Conditions& each) {
+      return each.conditioning.size(quantity) >= may_miss * sizes.of(quantity);
+    });
+  };
+  if (of.instants.size() >= instants_along && shown(Rounded::twists) && shown(Rounded::twist_rates) &&
+      shown(Rounded::torque))
+    return {};
+  const std::vector<double> telling = tellingInstants(of.scenario);
+  std::vector<double> out;
+  std::set_union(of.instants.begin(), of.instants.end(), telling.begin(), telling.end(), std::back_inserter(out));
+  return out;
 }
 
 }  // namespace
@@ -36,8 +55,9 @@ PreparedScenario::PreparedScenario(const Scenario& given)
 RoundingAlong::RoundingAlong(const PreparedScenario& of, const Deadline& deadline)
     : profile(of.scenario, profileInstants(of.scenario.simulation.samples), deadline),
       conditions(conditionsAt(of.scenario, of.instants, profile, deadline)),
-      position_scale(positionScale(conditions)),
-      forces(loopForces(conditions)) {}
+      denser(conditionsAt(of.scenario, denserInstants(of, conditions, profile.sizes()), profile, deadline)),
+      position_scale(positionScale(along())),
+      forces(loopForces(along())) {}
 
 Reference::Reference(const Scenario& given, int threads, const Deadline& whole)
     : PreparedScenario(given), deadline(whole.part()) {
@@ -64,7 +84,7 @@ RightReplays Reference::rightReplays() const {
   const auto trajectory = scenario.trajectory;
   ReplayPlan& plan = out.plan;
   plan.torques = [right, trajectory](double t) { return right.torques(trajectory->at(t)); };
-  plan.acceleration = SampledLimit(rounding().conditions);
+  plan.acceleration = SampledLimit(rounding().along());
   plan.deadline = deadline;
   plan.position_scale = rounding().position_scale;
   plan.step_rate = plannedStepRate(duration);
@@ -79,7 +99,7 @@ RightReplays Reference::rightReplays() const {
   const auto took_too_long = [](const WindowedReplay& each) { return each.replay.too_long; };
   if (!plan.stiff && std::any_of(out.windows.begin(), out.windows.end(), took_too_long)) replayAs(true);
   measureIntegration(scenario, plan, out.windows);
-  measureOpening(rounding().conditions, out.windows);
+  measureOpening(rounding().along(), out.windows);
   return out;
 }
 
@@ -135,7 +155,7 @@ const Ladder& Reference::ladder() const {
 const StabilisedReplay& Reference::stabilised() const {
   return stabilised_.get([this] {
     const Subject right = nocSubject(*scenario.manipulator, scenario.load);
-    return stabilisedReplay(scenario, right, replays().amplification, rounding().conditions, nullptr, deadline);
+    return stabilisedReplay(scenario, right, replays().amplification, rounding().along(), nullptr, deadline);
   });
 }
 

@@ -58,10 +58,13 @@ struct PreparedScenario {
 struct RoundingAlong {
   RoundingProfile profile;
   std::vector<Conditions> conditions;  ///< at the instants
+  std::vector<Conditions> denser;      ///< at the telling instants too, if the instants do not show the motion
   double position_scale = 0;
   LoopForces forces;
 
   RoundingAlong(const PreparedScenario& of, const Deadline& deadline);
+  /// Along the whole motion, for what is between the instants.
+  const std::vector<Conditions>& along() const { return denser.empty() ? conditions : denser; }
 };
 
 /// The parts of a validation that depend on the scenario alone and not on the subject. The scenario is prepared first.

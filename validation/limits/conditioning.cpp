@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/dense.h"
+#include "validation/limits/engine_view.h"
 #include "validation/subject/scaled_jacobian.h"
 #include "validation/subject/subject.h"
 
@@ -118,7 +119,10 @@ void setPlatform(const Noc<double>& solver, const Manipulator& manipulator, cons
   }
   out.compliance = 1 / platform.mass + arm * arm / smallest_moment;
   double squares = 0;
-  for (const LegReactions& leg : solver.reactions(motion, torques, work)) squares += leg.f_B.squaredNorm();
+  for (const LegReactions& leg : solver.reactions(motion, torques, work)) {
+    squares += leg.f_B.squaredNorm();
+    out.reaction = std::max(out.reaction, distance(leg, LegReactions{}, out.length));
+  }
   out.force_scale = std::sqrt(squares);
   const double inertia = platform.mass * (manipulator.gravity().norm() + motion.p_ddot.norm());
   out.weight_ratio = inertia > 0 ? out.force_scale / inertia : 0;
@@ -204,9 +208,47 @@ double Conditioning::shape(Rounded quantity) const {
   return eps * torque;
 }
 
+double Conditioning::size(Rounded quantity) const {
+  switch (quantity) {
+    case Rounded::angles:
+      return 1;
+    case Rounded::rates:
+      return twist_scale / length;
+    case Rounded::accelerations:
+      return rate_scale / length;
+    case Rounded::positions:
+      return position_scale;
+    case Rounded::twists:
+    case Rounded::jacobian:
+      return twist_scale;
+    case Rounded::twist_rates:
+    case Rounded::jacobian_rate:
+    case Rounded::gaps:  // differences of the bodies' accelerations
+      return rate_scale;
+    case Rounded::shaping:
+      return shaping_scale;
+    case Rounded::shaping_rate:
+      return shaping_scale * (1 + twist_scale / length);
+    case Rounded::acceleration:
+      return response * effort;
+    case Rounded::direct:
+    case Rounded::solver_direct:
+      return platform_rate;
+    case Rounded::reactions:
+      return reaction;
+    case Rounded::torque:
+    case Rounded::solver:
+    case Rounded::effort:
+    case Rounded::further_engine:  // and all following quantities
+      break;
+  }
+  return effort;
+}
+
 double Conditioning::rounding(Rounded quantity) const {
   if (solvesWithI(quantity) && !hasDigitsOfI()) return std::numeric_limits<double>::infinity();
-  return shape(quantity) * levels[static_cast<std::size_t>(quantity)];
+  const auto q = static_cast<std::size_t>(quantity);
+  return std::max(floors[q], shape(quantity) * levels[q]);  // in this order the floor also wins over 0 times infinity
 }
 
 double Conditioning::complementRounding() const { return rounding_depth * eps * kappa_B * kappa_legs; }
@@ -245,6 +287,8 @@ Conditioning ConditioningProbe::at(const Motion<double>& motion) {
     out.rate_scale = std::max(out.rate_scale, twistSize(body.twist_rate, out.length));
   }
   out.rate_scale += out.twist_scale * out.twist_scale / out.length;
+  out.effort = torques.cwiseAbs().maxCoeff();
+  out.platform_rate = motion.p_ddot.norm() + out.length * motion.omega_dot.norm();
   if (hasRotors(manipulator_)) out.torque_scale += rotorScale(manipulator_, T_P, out.rate_scale);
   return out;
 }

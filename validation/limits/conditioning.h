@@ -87,13 +87,19 @@ struct Conditioning {
   double shaping_scale = 0;  ///< ‖T‖, angular rows times length, m
   double effort_scale = 0;   ///< ‖T_PᵀM_P‖: torque per acceleration of the platform, N·m/(m/s²)
   double weight_ratio = 0;   ///< force_scale over the platform's weight and inertia forces
+  double effort = 0;         ///< the largest effort of a motor, N·m
+  double reaction = 0;       ///< the largest force at a joint, or moment over the length, N
+  double platform_rate = 0;  ///< size of the platform's acceleration, m/s²
   RoundingLevels levels = uniformLevels(rounding_depth);
+  RoundingLevels floors = uniformLevels(0);  ///< the least limits: one rounding of the motion's own sizes (MotionSizes)
 
   /// Whether I of (34) keeps a correct digit: Higham, Accuracy and Stability of Numerical Algorithms (2002), p. 198.
   bool hasDigitsOfI() const { return rounding_depth * std::numeric_limits<double>::epsilon() * kappa_I < 1; }
   /// The growth of rounding in `quantity` with pose and machine, times eps: the unit of its level.
   double shape(Rounded quantity) const;
-  /// The bound of its rounding, shape × level; infinite if I has no digit and `quantity` needs it.
+  /// The size of `quantity` itself.
+  double size(Rounded quantity) const;
+  /// The bound of its rounding: shape × level, at least the floor. Infinite if I has no digit and `quantity` needs it.
   double rounding(Rounded quantity) const;
 
   /// The rounding of ‖D T‖ over ‖D‖‖T‖; it is derived, not measured.

@@ -130,10 +130,10 @@ RoundingLevels spreadOfEngines(const Manipulator& machine, const std::vector<Eng
   return out;
 }
 
-/// Divides by the shape; infinite if there is a spread without a shape.
+/// Divides by the shape, or by the floor if that is larger; infinite if there is a spread without either.
 void divideByShape(const Conditioning& at, RoundingLevels& spread) {
   for (std::size_t q = 0; q < rounded_count; ++q) {
-    const double shape = at.shape(static_cast<Rounded>(q));
+    const double shape = std::max(at.floors[q], at.shape(static_cast<Rounded>(q)));
     if (spread[q] != 0) spread[q] = shape > 0 ? spread[q] / shape : std::numeric_limits<double>::infinity();
   }
 }
@@ -160,7 +160,7 @@ Vector6d otherTorques(const Vector6d& torques) {
   return out;
 }
 
-int profileInstants(int samples) { return std::clamp(samples, 2, 61); }
+int profileInstants(int samples) { return std::clamp(samples, 21, instants_along); }
 
 struct RoundingProfile::Workspace {
   explicit Workspace(const Scenario& scenario)
@@ -180,7 +180,7 @@ struct RoundingProfile::Workspace {
 };
 
 RoundingProfile::RoundingProfile(const Scenario& scenario, int instants, const Deadline& deadline)
-    : workspace_(std::make_unique<Workspace>(scenario)) {
+    : sizes_(scenario, deadline), workspace_(std::make_unique<Workspace>(scenario)) {
   Motion<double> last_distinct;
   for (int k = 0; k < instants; ++k) {
     deadline.require();
@@ -201,7 +201,8 @@ RoundingProfile::Measured RoundingProfile::measure(const Motion<double>& motion,
   const std::lock_guard<std::mutex> lock(w.guard);
   Measured here;
   here.t = motion.t;
-  const Conditioning conditioning = w.probe.at(motion);
+  Conditioning conditioning = w.probe.at(motion);
+  conditioning.floors = sizes_.floors();
   const Vector6d commanded = w.solver.torques(motion), others = torques != nullptr ? *torques : otherTorques(commanded);
   const std::vector<SolverView> solver = w.solver.at(motion, others);
   std::vector<EngineView> engines;
@@ -226,6 +227,7 @@ Conditioning RoundingProfile::withLevels(const Motion<double>& motion, const Mea
     const std::lock_guard<std::mutex> lock(workspace_->guard);
     out = workspace_->probe.at(motion);
   }
+  out.floors = sizes_.floors();
   const auto after = std::lower_bound(measured_.begin(), measured_.end(), motion.t,
                                       [](const Measured& each, double t) { return each.t < t; });
   const auto i = static_cast<std::size_t>(after - measured_.begin());

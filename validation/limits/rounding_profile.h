@@ -5,7 +5,7 @@
 
 #include "base/deadline.h"
 #include "model/scenario.h"
-#include "validation/limits/conditioning.h"
+#include "validation/limits/motion_sizes.h"
 
 namespace ursula {
 
@@ -27,6 +27,8 @@ class RoundingProfile {
   /// The same with the instant itself measured; direct dynamics then has `torques`, if given.
   Conditioning closer(const Motion<double>& motion, const Vector6d* torques = nullptr) const;
 
+  const MotionSizes& sizes() const { return sizes_; }
+
   /// The measured spread of `quantity` at each measured instant, in units of its shape.
   std::vector<double> spreads(Rounded quantity) const;
 
@@ -39,6 +41,7 @@ class RoundingProfile {
   Conditioning withLevels(const Motion<double>& motion, const Measured* measured_here) const;
 
   struct Workspace;
+  MotionSizes sizes_;
   std::unique_ptr<Workspace> workspace_;  ///< scratch, for one thread at a time
   std::vector<Measured> measured_;
 };
@@ -59,7 +62,7 @@ class RemeasuredLimits {
 /// Torques changed by the size of the largest, for direct dynamics off the commanded motion.
 Vector6d otherTorques(const Vector6d& torques);
 
-/// A sufficient number of instants for a run that is judged at `samples` instants.
+/// A sufficient number of instants for a run that is judged at `samples` instants, which may all be at rest.
 int profileInstants(int samples);
 
 /// Factor on a measured spread. The spread is the largest of some ten to forty differences; a limit must hold for some

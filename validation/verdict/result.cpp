@@ -114,10 +114,28 @@ Check notJudgeable(Reason reason, std::string name, double value, double limit, 
           std::move(basis), std::move(why), reason, {value, 0, ""}};
 }
 
+namespace {
+
+/// A check that compared nothing with nothing. It does not apply if the motion has nothing of the quantity.
+Check notCovered(const CheckedQuantity& quantity, const JudgedValue& shown, std::string basis) {
+  const std::string nothing = quantity.of_motion ? "nothing moves" : "no effort is needed";
+  const bool anywhere = quantity.along > 0;
+  Check out =
+      notJudgeable(Reason::not_covered, quantity.name, shown.value, shown.limit, quantity.unit, std::move(basis),
+                   anywhere ? fmt::format("not covered, since {} at the judged instants; ask for more of them", nothing)
+                            : "not covered, since " + nothing);
+  if (!anywhere && quantity.of_motion) out.verdict = Verdict::not_applicable;
+  return out;
+}
+
+}  // namespace
+
 Check judgedIfUseful(const CheckedQuantity& quantity, const WorstShare& worst, std::string basis, std::string why,
                      const std::string& cause) {
   const double useful = quantity.useful();
   const JudgedValue shown = worst.shown(useful);
+  if (!shown.beyond && quantity.seen <= useful_share * quantity.along)
+    return notCovered(quantity, shown, std::move(basis));
   const std::string wide =
       std::isfinite(worst.widest_limit)
           ? fmt::format("the derived limit is at most {:.3g} of the quantity's size: {}",

@@ -85,7 +85,7 @@ enum class Reason {
   none,            ///< judged by value and limit
   limit_useless,   ///< the limit is too large to be useful; only this reason yields to a user's limit
   unfinished,      ///< stopped before all was judged
-  not_covered,     ///< something needed is missing: samples, digits, a part of the motion
+  not_covered,     ///< something needed is missing: samples, digits, a part of the motion, motion at all
   not_made,        ///< it could not be made at all, which is a failure
   not_applicable,  ///< it needs what scenario, subject or build lack
   reported,        ///< shown but not judged: a user's tolerance judges only the efforts
@@ -158,13 +158,17 @@ constexpr double useful_share = 1e-6;
 struct CheckedQuantity {
   std::string name;  ///< name of the check
   std::string unit;
-  double size = 0;   ///< size of the quantity itself, in the unit of the values
+  double size = 0;   ///< size of the quantity itself along the motion, in the unit of the values
   double given = 0;  ///< possible error of its values from missing digits
+  /// Largest sizes of what it is about where values were compared, and along the whole motion.
+  double seen = 1, along = 1;
+  bool of_motion = false;  ///< a held pose has nothing of it, and then the check does not apply
   double useful() const { return useful_share * size + given; }
 };
 
 /// Judges by WorstShare::shown. A value above the useful threshold and within its derived limit is inconclusive, with
-/// `cause`. It notes if a limit exceeds the useful threshold.
+/// `cause`. It notes if a limit exceeds the useful threshold. Nothing is held if no more was seen than useful_share of
+/// what is along the motion, where even a total error would not matter: the check is then not covered.
 Check judgedIfUseful(const CheckedQuantity& quantity, const WorstShare& worst, std::string basis, std::string why,
                      const std::string& cause);
 
