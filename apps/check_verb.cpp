@@ -26,6 +26,7 @@ bool checkOne(const std::string& file, const CheckOptions& options) {
   try {
     const Scenario scenario = readScenarioOrInput(file);
     requireApart(scenario, {options.picture});
+    for (const std::string& note : readAs(scenario)) say("{}\n", note);
     const std::vector<std::string> odd = warnings(scenario);
     const auto tell = [on_stderr = options.picture == "-"](const std::string& text) {
       return on_stderr ? sayText(withoutControls(text)) : writeOutput("-", withoutControls(text));

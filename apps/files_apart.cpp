@@ -31,7 +31,10 @@ void gather(const CLI::App& app, std::vector<Named>& out) {
     const bool written = isWritten(name) && option->get_expected_min() > 0;
     if (!written && !option->get_positional() && name != "--torques") continue;
     for (const std::string& file : option->results())
-      if (namesFile(file)) out.push_back({name, file, written});
+      if (namesFile(file))
+        out.push_back({name, file, written});
+      else if (file == "-" && !written)
+        out.push_back({name, "/dev/stdin", false});  // may be a file that the shell opened
   }
   for (const CLI::App* verb : app.get_subcommands()) gather(*verb, out);
 }

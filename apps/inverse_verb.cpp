@@ -5,11 +5,9 @@
 #include <string>
 #include <thread>
 
-#include "apps/files_apart.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
-#include "model/scenario_files.h"
 #include "report/files/inverse_blocks.h"
 
 namespace ursula {
@@ -23,8 +21,7 @@ struct InverseOptions {
 };
 
 int inverse(const InverseOptions& options) {
-  const Scenario scenario = readScenarioOrInput(options.scenario);
-  requireApart(scenario, {options.out});
+  const Scenario scenario = openScenario(options.scenario, {options.out});
   const BlockTable table = inverseBlocks(scenario, options.samples);
   Progress progress(scenario.name);
   const auto written = [&](double share) {

@@ -60,27 +60,6 @@ namespace {
   throw std::runtime_error(std::string("standard output could not be written: ") + std::strerror(errno));
 }
 
-/// Gives `text` to a program's standard input. Returns its output.
-std::string filtered(const std::vector<std::string>& words, std::string_view text) {
-  ChildProcess child({words, {}, true});
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t count = ::write(child.to(), text.data() + done, text.size() - done);
-    if (count < 0 && errno != EINTR) break;  // it ended; its status says why
-    done += count > 0 ? static_cast<std::size_t>(count) : 0;
-  }
-  child.closeInput();
-  std::string out;
-  std::array<char, 65536> some{};
-  for (ssize_t count = 0; (count = ::read(child.from(), some.data(), some.size())) != 0;)
-    if (count > 0)
-      out.append(some.data(), static_cast<std::size_t>(count));
-    else if (errno != EINTR)
-      break;
-  child.wait();
-  if (child.status() != 0) throw std::runtime_error(words.front() + " " + child.howItEnded());
-  return out;
-}
-
 bool isPng(const std::string& file) { return file.size() > 4 && file.compare(file.size() - 4, 4, ".png") == 0; }
 
 }  // namespace
@@ -88,7 +67,10 @@ bool isPng(const std::string& file) { return file.size() > 4 && file.compare(fil
 void writePicture(const std::string& file, const std::string& svg) {
   if (!isPng(file)) return writeOutput(file, svg);
   try {
-    writeOutput(file, filtered({"rsvg-convert", "--zoom", "2", "--background-color", "white"}, svg));
+    constexpr double longest = 60;  // s
+    writeOutput(file, answerOf({"rsvg-convert", "--zoom", "2", "--background-color", "white"}, svg, Deadline(longest)));
+  } catch (const OutOfTime& limit) {
+    throw std::runtime_error(fmt::format("{}: rsvg-convert makes no picture: {}", file, limit.what()));
   } catch (const std::system_error& error) {
     if (error.code() != std::errc::no_such_file_or_directory) throw;
     throw UsageError("--picture: " + file + ": PNG needs rsvg-convert, in Debian's librsvg2-bin; expected an SVG file");

@@ -12,9 +12,9 @@
 #include "apps/output.h"
 #include "apps/verbs.h"
 #include "base/text.h"
+#include "model/torque_names.h"
 #include "report/text/terminal.h"
 #include "report/files/written_files.h"
-#include "validation/subject/torque_names.h"
 
 namespace ursula {
 

@@ -16,7 +16,6 @@
 #include "model/scenario_files.h"
 #include "report/files/report.h"
 #include "report/files/run.h"
-#include "validation/check_scenario/check_scenario.h"
 #include "apps/suite/suite.h"
 #include "validation/outside/external_solver.h"
 #include "validation/validate.h"
@@ -186,8 +185,7 @@ int validateAll(const ValidateOptions& options) {
     throw UsageError("standard input can be read once, expected one -");
   std::vector<SuiteMember> members = readSuite({options.scenarios.begin(), options.scenarios.end()});
   for (const SuiteMember& member : members)
-    if (member.scenario)
-      for (const std::string& hint : hints(*member.scenario)) say("{}\n", hint);
+    if (member.scenario) sayWarnings(*member.scenario);
   const bool none_good =
       std::none_of(members.begin(), members.end(), [](const auto& each) { return each.error.empty(); });
   if (options.strict || none_good) members = allOrNothing(std::move(members));

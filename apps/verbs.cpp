@@ -7,9 +7,12 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "apps/files_apart.h"
 #include "apps/output.h"
 #include "base/text.h"
+#include "model/scenario_files.h"
 #include "report/files/run.h"
+#include "validation/check_scenario/check_scenario.h"
 
 namespace ursula {
 namespace {
@@ -46,6 +49,18 @@ CLI::Validator wholeNumber() {
     return is_whole ? std::string() : fmt::format("'{}' is not an integer from 0 to {}", text, UINT64_MAX);
   };
   return CLI::Validator(check, "UINT64");
+}
+
+void sayWarnings(const Scenario& scenario) {
+  for (const std::string& line : readAs(scenario)) say("{}\n", line);
+  for (const std::string& line : warnings(scenario)) say("{}\n", line);
+}
+
+Scenario openScenario(const std::string& file, std::initializer_list<std::string> written) {
+  Scenario scenario = readScenarioOrInput(file);
+  requireApart(scenario, written);
+  sayWarnings(scenario);
+  return scenario;
 }
 
 void writeOutput(const std::string& file, const std::string& content) {

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
 
@@ -30,6 +31,13 @@ using AddVerb = void(CLI::App& app, std::function<int()>& run);
 
 // The core's verbs; parts have further ones (apps/part_verbs.h).
 AddVerb addValidate, addInverse, addInit, addCheck, addExplain, addOpen;
+
+/// Reads the scenario of a verb that uses its motion, and says on standard error what `check` warns of. Throws
+/// UsageError if one of the options' values `written` is a file that the scenario names, such as its samples.
+Scenario openScenario(const std::string& file, std::initializer_list<std::string> written = {});
+/// Says how files that the scenario names were read, and what `check` warns of. Each verb says it once, before its
+/// work.
+void sayWarnings(const Scenario& scenario);
 
 /// Returns the result of `run`. A pose that the machine cannot take becomes an error at the scenario's trajectory.
 template <class Run>

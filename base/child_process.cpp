@@ -1,6 +1,7 @@
 #include "base/child_process.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -177,6 +178,34 @@ void ChildProcess::wait() {
 std::string ChildProcess::howItEnded() const {
   if (WIFEXITED(status_)) return "ended with exit code " + std::to_string(WEXITSTATUS(status_));
   return "was ended by signal " + std::to_string(WTERMSIG(status_)) + " (" + ::strsignal(WTERMSIG(status_)) + ")";
+}
+
+std::string answerOf(const std::vector<std::string>& words, std::string_view input, const Deadline& deadline) {
+  constexpr int milliseconds = 100;  // between looks at the deadline
+  ChildProcess child({words, {}, true});
+  ::fcntl(child.to(), F_SETFL, O_NONBLOCK);
+  std::string out;
+  std::array<char, 65536> some{};
+  for (;;) {
+    if (input.empty()) child.closeInput();
+    std::array<pollfd, 2> ends{{{child.from(), POLLIN, 0}, {child.to(), POLLOUT, 0}}};  // poll passes over −1
+    deadline.require();
+    if (::poll(ends.data(), ends.size(), milliseconds) <= 0) continue;
+    if (ends[1].revents != 0) {
+      const ssize_t count = ::write(child.to(), input.data(), input.size());
+      if (count < 0 && errno != EINTR && errno != EAGAIN) input = {};  // it ended; its status says why
+      input.remove_prefix(count > 0 ? static_cast<std::size_t>(count) : 0);
+    }
+    if (ends[0].revents == 0) continue;
+    const ssize_t count = ::read(child.from(), some.data(), some.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
+    out.append(some.data(), static_cast<std::size_t>(count));
+  }
+  for (; !child.hasEnded(); ::poll(nullptr, 0, 1)) deadline.require();
+  child.wait();
+  if (child.status() != 0) throw std::runtime_error(words.front() + " " + child.howItEnded());
+  return out;
 }
 
 void startDetached(const std::vector<std::string>& words) {

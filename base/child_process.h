@@ -5,9 +5,11 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "base/deadline.h"
 #include "base/signal_cleanup.h"
 
 namespace ursula {
@@ -53,6 +55,10 @@ class ChildProcess {
   int status_ = 0;
   std::optional<CleanupOnSignal> ends_with_us_;
 };
+
+/// Runs a command without a shell, gives it `input` and returns its standard output. Throws like ChildProcess,
+/// std::runtime_error if it fails, and OutOfTime at the deadline; then it is killed. The caller ignores SIGPIPE.
+std::string answerOf(const std::vector<std::string>& words, std::string_view input = {}, const Deadline& deadline = {});
 
 /// Starts a program in its own session, without our streams; nobody waits for it. Throws like ChildProcess.
 void startDetached(const std::vector<std::string>& words);

@@ -11,6 +11,7 @@
 
 #include "base/text.h"
 #include "base/text_source.h"
+#include "base/utf8.h"
 
 namespace ursula {
 namespace {
@@ -154,7 +155,7 @@ CsvTable parseCsv(const std::string& text, const std::filesystem::path& file, co
 
 std::string readCsvText(const std::filesystem::path& file) {
   try {
-    return readText(file, csv_bounds);
+    return utf8(readText(file, csv_bounds));
   } catch (const TextRefusal& refusal) {
     const std::string place = refusal.line > 0 ? fmt::format(":{}", refusal.line) : "";
     throw CsvError(fmt::format("{}{}: error: {}", shownPath(file.string()), place, refusal.what()));

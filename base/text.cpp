@@ -4,6 +4,8 @@
 #include <cctype>
 #include <charconv>
 
+#include "base/utf8.h"
+
 namespace ursula {
 
 LeadingNumber leadingNumber(std::string_view text) {
@@ -131,6 +133,21 @@ std::string escaped(std::string_view text, std::string_view kept) {
 }
 
 }  // namespace
+
+std::string utf8(std::string text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t size = characterOf(std::string_view(text).substr(at));
+    if (size == 0 && out.empty()) out.assign(text, 0, at);  // a text that is UTF-8 is not copied
+    const auto byte = static_cast<unsigned char>(text[at]);
+    if (size == 0)
+      out.append(1, static_cast<char>(0xC0 | byte >> 6)).append(1, static_cast<char>(0x80 | (byte & 0x3F)));
+    else if (!out.empty())
+      out.append(text, at, size);
+    at += std::max<std::size_t>(size, 1);
+  }
+  return out.empty() ? text : out;
+}
 
 std::string withoutControls(std::string_view text) { return escaped(text, "\n\t"); }
 

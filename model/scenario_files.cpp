@@ -1,7 +1,12 @@
 #include "model/scenario_files.h"
 
+#include <fmt/format.h>
+
+#include <string_view>
+
 #include "base/text.h"
 #include "base/toml_bounds.h"
+#include "model/columns.h"
 #include "model/scenario_sections.h"
 #include "model/toml_reader.h"
 
@@ -25,7 +30,7 @@ std::vector<std::filesystem::path> filesNamedBy(const Scenario& scenario) {
   return makeFilesAbsolute(document, scenario.file);
 }
 
-CsvTable readCsvBeside(const TomlSection& table, const std::string& key) {
+CsvTable readCsvBeside(const TomlSection& table, const std::string& key, bool loads) {
   std::string name;
   table.require(key, name);
   try {
@@ -37,7 +42,20 @@ CsvTable readCsvBeside(const TomlSection& table, const std::string& key) {
   std::error_code error;
   if (!std::filesystem::exists(file, error) || std::filesystem::is_directory(file, error))
     table.fail(key, "'" + shownPath(file.string()) + "', expected a CSV file");
-  return readCsv(file);
+  return readByMeaning(file, loads);
+}
+
+std::vector<std::string> readAs(const Scenario& scenario) {
+  std::vector<std::string> out;
+  if (scenario.text.empty()) return out;
+  toml::table document = parseToml(scenario.text, scenario.file.string());
+  makeFilesAbsolute(document, scenario.file);
+  for (const char* part : {"trajectory", "load"})
+    if (const auto file = document[part]["file"].value<std::string>()) {
+      const std::string words = meaningInWords(*file, part == std::string_view("load"));
+      if (!words.empty()) out.push_back(fmt::format("{}: read as: {}", shownPath(*file), words));
+    }
+  return out;
 }
 
 std::string scenarioText(const std::filesystem::path& file) {

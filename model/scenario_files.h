@@ -17,6 +17,9 @@ std::vector<std::filesystem::path> makeFilesAbsolute(toml::table& document, cons
 /// Returns the same paths of a scenario that was read; none if a program made it.
 std::vector<std::filesystem::path> filesNamedBy(const Scenario& scenario);
 
+/// Returns "FILE: read as: …" for each such file whose columns are not named as in the contract.
+std::vector<std::string> readAs(const Scenario& scenario);
+
 /// Reads the text of a scenario file. Throws ScenarioError if it cannot be read.
 std::string scenarioText(const std::filesystem::path& file);
 

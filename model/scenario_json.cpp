@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
 #include "base/text.h"
 #include "model/scenario_files.h"
 #include "model/toml_reader.h"
@@ -77,7 +78,7 @@ std::string scenarioJson(const Scenario& scenario) {
     throw ScenarioError(fmt::format("{}: error: a scenario that a program made has no document", scenario.name));
   toml::table document = parseToml(scenario.text, scenario.file.string());
   makeFilesAbsolute(document, scenario.file);
-  return jsonOf(document).dump();
+  return jsonText(jsonOf(document));
 }
 
 std::string tomlOfJson(const std::string& json, const std::filesystem::path& file) {

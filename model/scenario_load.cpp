@@ -51,7 +51,7 @@ std::shared_ptr<const Load> readLoad(const TomlSection& table) {
   table.read("point", load->point);
   if (const auto frame = table.readChoice(keys.key("frame")))
     load->frame = *frame == 0 ? Load::Frame::base : Load::Frame::platform;
-  if (table.has("file")) load->history = std::make_shared<LoadHistory>(rowsOf(readCsvBeside(table, "file")));
+  if (table.has("file")) load->history = std::make_shared<LoadHistory>(rowsOf(readCsvBeside(table, "file", true)));
   if (table.has("table")) load->history = std::make_shared<LoadHistory>(rowsOf(table.sections("table")));
   return load;
 }

@@ -17,8 +17,9 @@ ManipulatorParameters readManipulator(const TomlSection& manipulator);
 std::shared_ptr<const Trajectory> readTrajectory(const TomlSection& trajectory);
 std::shared_ptr<const Load> readLoad(const TomlSection& table);
 
-/// Reads the CSV that `key` names; a relative path refers to the scenario's folder. Throws also CsvError.
-CsvTable readCsvBeside(const TomlSection& table, const std::string& key);
+/// Reads the poses, or with `loads` the loads, of the CSV that `key` names, by readByMeaning(). A relative path refers
+/// to the scenario's folder. Throws also CsvError.
+CsvTable readCsvBeside(const TomlSection& table, const std::string& key, bool loads);
 
 /// Finds the value that `refusal` names in the document or in manipulator.leg_defaults, or the nearest enclosing table.
 PlacedError located(const InvalidParameter& refusal, const TomlSection& document);

@@ -72,7 +72,7 @@ std::shared_ptr<ScenarioWithSolver> scenarioOf(const py::object& given,
   const std::string text = py::str(is_text ? given : py::module_::import("json").attr("dumps")(plain(given, "")));
   const std::filesystem::path file = folder.value_or("") / (is_text ? from_text : from_dict);
   const py::gil_scoped_release unlocked;
-  return std::make_shared<ScenarioWithSolver>(parseScenario(is_text ? text : tomlOfJson(text, file), file));
+  return warnedOf(std::make_shared<ScenarioWithSolver>(parseScenario(is_text ? text : tomlOfJson(text, file), file)));
 }
 
 std::shared_ptr<ScenarioWithSolver> importModel(const std::filesystem::path& file, const std::string& base,
@@ -90,7 +90,7 @@ std::shared_ptr<ScenarioWithSolver> importModel(const std::filesystem::path& fil
   }
   for (const exchange::Assumption& each : out->assumptions)
     if (each.warning) py::module_::import("warnings").attr("warn")(inWords(each));
-  return out;
+  return warnedOf(std::move(out));
 }
 
 py::list assumptionsOf(const ScenarioWithSolver& self) {

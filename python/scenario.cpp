@@ -248,6 +248,14 @@ void addPose(py::module_& module) {
 
 }  // namespace
 
+std::shared_ptr<ScenarioWithSolver> warnedOf(std::shared_ptr<ScenarioWithSolver> read) {
+  const std::vector<std::string> lines = warnings(read->scenario);
+  const py::gil_scoped_acquire locked;
+  for (const std::string& line : lines)
+    if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 1) != 0) throw py::error_already_set();
+  return read;
+}
+
 void addScenario(py::module_& module) {
   addPose(module);
   py::class_<ScenarioWithSolver, std::shared_ptr<ScenarioWithSolver>> scenario(module, "Scenario", words::scenario);
@@ -285,7 +293,7 @@ void addScenario(py::module_& module) {
       "read_scenario",
       [](const std::filesystem::path& file) {
         const py::gil_scoped_release unlocked;
-        return std::make_shared<ScenarioWithSolver>(readScenario(file));
+        return warnedOf(std::make_shared<ScenarioWithSolver>(readScenario(file)));
       },
       py::arg("path"), words::read_scenario);
 }

@@ -5,6 +5,7 @@
 #include <ursula/scenario.h>
 #include <ursula/solver.h>
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -36,5 +37,9 @@ class pybind11::detail::type_caster<ursula::python::ScenarioWithSolver>
 namespace ursula::python {
 
 void addScenario(pybind11::module_& module);
+
+/// Warns (UserWarning) of what `check` lists for a scenario that was read, once, at the caller's line. Is called
+/// without Python's lock.
+std::shared_ptr<ScenarioWithSolver> warnedOf(std::shared_ptr<ScenarioWithSolver> read);
 
 }  // namespace ursula::python

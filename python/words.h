@@ -20,7 +20,9 @@ constexpr const char* q =
     "Orientation of M in B as unit quaternions [w, x, y, z]: (N, 4). The first has w >= 0; the signs do not jump.";
 
 constexpr const char* read_scenario =
-    "Reads and checks a scenario file (TOML). Raises ScenarioError, with file, line and column.";
+    "Reads and checks a scenario file (TOML). Raises ScenarioError, with file, line and column. Warns (UserWarning) "
+    "of\n"
+    "what check() lists, as scenario() and import_model() do.";
 
 constexpr const char* scenario_of =
     R"(Makes a Scenario from a dict or from text in TOML, with the keys of a scenario's file. A dict may contain arrays

@@ -49,13 +49,13 @@ std::vector<ScenarioTable> samplesKeys() {
            "Through the poses of a motion sampled densely.",
            {kindKey(),
             {"file", KeyType::string, "", required_key,
-             "a CSV with `t_s`, `p_{x,y,z}_m`, `q_{w,x,y,z}`, at least six rows; a relative path is taken from the "
-             "scenario's folder"}}}};
+             "a CSV with `t_s`, `p_{x,y,z}_m`, `q_{w,x,y,z}`, at least six rows, or with `t_ms`, `p_x_mm`, `surge_m`, "
+             "`roll_deg` and the like; a relative path is taken from the scenario's folder"}}}};
 }
 
 std::shared_ptr<const Trajectory> readSamples(const TomlSection& table) {
   table.allowOnly(scenarioTable("trajectory.samples"));
-  return makeSamples(readCsvBeside(table, "file"));
+  return makeSamples(readCsvBeside(table, "file", false));
 }
 
 }  // namespace ursula

@@ -7,7 +7,6 @@
 #include "apps/verbs.h"
 #include "base/output_folder.h"
 #include "base/text.h"
-#include "model/scenario_files.h"
 #include "parts/engines/side_by_side/side_by_side.h"
 
 namespace ursula {
@@ -41,7 +40,7 @@ int engines(EnginesOptions options) {
     refuseResults(options.out);
   }
   options.asked.engines = namedEngines(options.engines);
-  const Scenario scenario = readScenarioOrInput(options.scenario);
+  const Scenario scenario = openScenario(options.scenario);
   std::optional<OutputFolder> folder;  // made before the work, so that a folder that cannot be written is found early
   if (!options.out.empty()) folder.emplace(options.out);
   Progress progress(scenario.name);

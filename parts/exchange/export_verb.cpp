@@ -5,7 +5,6 @@
 #include <string>
 
 #include "apps/choice.h"
-#include "apps/files_apart.h"
 #include "apps/output.h"
 #include "apps/verbs.h"
 #include "parts/exchange/leg_pose.h"
@@ -32,8 +31,7 @@ exchange::WrittenModel written(const Scenario& scenario, ModelFormat format) {
 }
 
 int exportModel(const ExportOptions& options) {
-  const Scenario scenario = readScenarioOrInput(options.scenario);
-  requireApart(scenario, {options.out});
+  const Scenario scenario = openScenario(options.scenario, {options.out});
   const exchange::WrittenModel model = written(scenario, options.format);
   writeOutput(options.out, model.text);
   for (const exchange::Assumption& note : model.notes)

@@ -5,8 +5,10 @@
 
 #include "apps/output.h"
 #include "apps/verbs.h"
+#include "base/json_text.h"
 #include "base/text.h"
 #include "parts/exchange/import.h"
+#include "validation/subject/singular_everywhere.h"
 
 namespace ursula {
 namespace {
@@ -26,12 +28,14 @@ std::string asJson(const exchange::Imported& imported) {
                            {"unit", each.unit},
                            {"warning", each.warning}});
   const nlohmann::ordered_json document = {{"scenario", imported.scenario}, {"assumptions", assumptions}};
-  return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return jsonText(document, 2) + "\n";
 }
 
 /// With `--json` standard output gets only the document, and the scenario goes to a named file.
 int import(const ImportOptions& options) {
-  const exchange::Imported imported = exchange::importModel(options.model, options.choices);
+  exchange::Imported imported = exchange::importModel(options.model, options.choices);
+  if (const auto found = singularEverywhere(parseScenario(imported.scenario, options.model)))
+    imported.assumptions.push_back({"The machine is " + found->words(), "legs", found->largest, "1"});
   if (!options.json) {
     for (const exchange::Assumption& each : imported.assumptions) say("{}\n", inWords(each));
     writeOutput(options.out, imported.scenario);

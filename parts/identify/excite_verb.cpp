@@ -1,11 +1,9 @@
 #include <memory>
 #include <string>
 
-#include "apps/files_apart.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
-#include "model/scenario_files.h"
 #include "parts/identify/excite.h"
 
 namespace ursula {
@@ -17,8 +15,7 @@ struct ExciteCall {
 };
 
 int exciteMachine(ExciteCall call) {
-  const Scenario scenario = readScenarioOrInput(call.scenario);
-  requireApart(scenario, {call.out});
+  const Scenario scenario = openScenario(call.scenario, {call.out});
   Progress progress(scenario.name);
   call.options.progress = [&progress](double share, const std::string& what) { progress.at(share, what); };
   const Excitation found = alongMotion(scenario, [&] { return excite(scenario, call.options); });

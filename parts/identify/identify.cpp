@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "base/provenance.h"
+#include "model/torque_names.h"
 #include "parts/identify/results.h"
-#include "validation/subject/torque_names.h"
 
 namespace ursula {
 namespace {

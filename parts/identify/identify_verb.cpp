@@ -1,14 +1,14 @@
+#include <fmt/ranges.h>
+
 #include <memory>
 #include <string>
 
-#include "apps/files_apart.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
 #include "base/output_folder.h"
 #include "base/text.h"
-#include "model/scenario_files.h"
 #include "parts/identify/identify.h"
 
 namespace ursula {
@@ -40,12 +40,15 @@ int exitOf(Verdict verdict) {
 }
 
 int identifyLog(IdentifyCall call) {
-  const Scenario scenario = readScenarioOrInput(call.scenario);
+  const Scenario scenario = openScenario(call.scenario);
   call.log.file = call.measured;
   const std::string folder = call.out.empty() ? "results/" + scenario.name : call.out;
   refuseFile(folder);
   MeasuredLog log = readMeasuredLog(call.log, *scenario.manipulator);
   if (!call.quiet) say("{}: read as: {}\n", shownPath(call.measured), log.read_as);
+  if (!log.ignored.empty())
+    say("{}: columns that are not used: {}\n", shownPath(call.measured),
+        shown(fmt::format("{}", fmt::join(log.ignored, ", ")), 400));
   Progress progress(scenario.name);
   IdentifyOptions options;
   options.prior = call.prior;

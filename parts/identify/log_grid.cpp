@@ -107,12 +107,13 @@ void LogGrid::halve() {
   every_ *= 2;
 }
 
-MeasuredLog LogGrid::finish(const std::string& file) {
+MeasuredLog LogGrid::finish(const std::string& file, const std::string& first_lacking) {
+  const std::string first = first_lacking.empty() ? "" : fmt::format(", the first is {}", first_lacking);
   if (head_.size() > 1) settleHead();
   if (count_ - lacking_ < fewest_rows)
     throw CsvError(fmt::format("{}: error: {} row{}{}, expected at least {}", shownPath(file), count_ - lacking_,
-                               count_ - lacking_ == 1 ? "" : "s", lacking_ > 0 ? " without an empty cell" : "",
-                               fewest_rows));
+                               count_ - lacking_ == 1 ? "" : "s",
+                               lacking_ > 0 ? " without an empty or NaN cell" + first : "", fewest_rows));
   MeasuredLog log;
   log.file = file;
   log.file_rows = count_;
@@ -128,11 +129,11 @@ MeasuredLog LogGrid::finish(const std::string& file) {
   log.motion = std::move(grid.values);
   log.missing = std::move(grid.missing);
   log.filled = std::move(grid.filled);
-  note(log, even);
+  note(log, even, first);
   return log;
 }
 
-void LogGrid::note(MeasuredLog& log, bool even) const {
+void LogGrid::note(MeasuredLog& log, bool even, const std::string& first) const {
   if (left_out_ > 0)
     log.findings.push_back({"long", -1, static_cast<double>(left_out_), "rows",
                             fmt::format("the rows up to t = {:.6g} s are used; {} more are left out, because steps "
@@ -141,9 +142,9 @@ void LogGrid::note(MeasuredLog& log, bool even) const {
   const std::size_t used = count_ - left_out_;
   if (const std::size_t filled = rows_ - (used - lacking_); filled > 0)
     log.findings.push_back({"drop_outs", -1, static_cast<double>(filled), "rows",
-                            fmt::format("of {} rows {} are missing (gaps: {}) and {} have empty cells; up to {} in a "
-                                        "row are filled by a polynomial, what is near longer gaps is left out",
-                                        rows_, rows_ - used, gaps_, lacking_, most_filled_rows)});
+                            fmt::format("of {} rows {} are missing (gaps: {}) and {} have empty or NaN cells{}; up to {} "
+                                        "in a row are filled by a polynomial, what is near longer gaps is left out",
+                                        rows_, rows_ - used, gaps_, lacking_, first, most_filled_rows)});
   if (const double jitter = std::sqrt(jitter_ / static_cast<double>(rows_)); jitter > 0.05)
     log.findings.push_back(
         {"jitter", -1, jitter, "steps",

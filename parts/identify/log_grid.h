@@ -21,8 +21,9 @@ class LogGrid {
 
   /// A row with NaN counts as missing. Throws CsvError unless `t` increases, and for a gap that is too long.
   void add(double t, std::vector<double>& row, const Place& place);
-  /// Returns the log with all values in `motion`. Throws CsvError for too few rows.
-  MeasuredLog finish(const std::string& file);
+  /// Returns the log with all values in `motion`. `first_lacking` names the first NaN. Throws CsvError for too few
+  /// rows.
+  MeasuredLog finish(const std::string& file, const std::string& first_lacking = "");
 
  private:
   void settleHead();
@@ -31,7 +32,7 @@ class LogGrid {
   void takeLastForLate();
   void halve();
   bool isFull() const;
-  void note(MeasuredLog& log, bool even) const;
+  void note(MeasuredLog& log, bool even, const std::string& first) const;
 
   std::size_t width_;
   std::vector<std::size_t> turning_;

@@ -9,16 +9,14 @@
 
 #include "base/csv.h"
 #include "base/text.h"
-#include "parts/identify/log_columns.h"
+#include "base/utf8.h"
+#include "model/columns.h"
 #include "parts/identify/log_grid.h"
 
 namespace ursula {
 namespace {
 
-using identification::LogColumn;
-using identification::LogColumns;
 using identification::LogGrid;
-using identification::LogQuantity;
 
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
@@ -29,13 +27,13 @@ std::vector<std::pair<std::string, std::string>> pairsOf(const std::vector<std::
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
       throw CsvError(fmt::format("--map: '{}', expected NAME=COLUMN", shown(text)));
     out.emplace_back(trimmedCell(std::string_view(text).substr(0, equals)),
-                     trimmedCell(std::string_view(text).substr(equals + 1)));
+                     utf8(std::string(trimmedCell(std::string_view(text).substr(equals + 1)))));
   }
   return out;
 }
 
 /// Returns each motor's constant, N·m/A or N/A.
-std::array<double, motor_count> constantsOf(const LogColumns& columns, const std::vector<double>& given) {
+std::array<double, motor_count> constantsOf(const Columns& columns, const std::vector<double>& given) {
   std::array<double, motor_count> out;
   out.fill(1);
   if (columns.has_currents && given.size() != 1 && given.size() != motor_count)
@@ -56,14 +54,14 @@ const std::filesystem::path& seekable(const std::filesystem::path& file) {
 }
 
 /// Returns a value's place in a row: motion, efforts, then moment and force of the load.
-std::size_t slotOf(const LogColumn& column, const LogColumns& columns) {
+std::size_t slotOf(const Column& column, const Columns& columns) {
   const std::size_t motion = columns.has_poses ? 7 : 6;
-  const LogQuantity of = column.quantity;
-  return column.index + (of == LogQuantity::quaternion                             ? 3
-                         : of == LogQuantity::effort || of == LogQuantity::current ? motion
-                         : of == LogQuantity::moment                               ? motion + 6
-                         : of == LogQuantity::force                                ? motion + 9
-                                                                                   : 0);
+  const ColumnQuantity of = column.quantity;
+  return column.index + (of == ColumnQuantity::quaternion || of == ColumnQuantity::angle ? 3
+                         : of == ColumnQuantity::effort || of == ColumnQuantity::current ? motion
+                         : of == ColumnQuantity::moment                                  ? motion + 6
+                         : of == ColumnQuantity::force                                   ? motion + 9
+                                                                                         : 0);
 }
 
 std::vector<std::size_t> turningOf(const Manipulator& machine, bool has_poses) {
@@ -96,15 +94,13 @@ class LogReader {
     if (const auto end = head.rfind('\n'); stream_ && end != std::string::npos) head.resize(end + 1);
     stream_.clear();
     stream_.seekg(0);
-    dialect_ = guessDialect(head, options.file);
+    dialect_ = guessDialect(utf8(std::move(head)), options.file);
     if (dialect_.header_cells.empty())
       throw CsvError(fmt::format("{}: error: empty, expected a log", shownPath(file_)));
-    columns_ = identification::findLogColumns(dialect_, file_, pairsOf(options.map), machine);
+    columns_ = findLogColumns(dialect_, file_, pairsOf(options.map), machine);
     const auto constants = constantsOf(columns_, options.constants);
-    for (LogColumn& column : columns_.columns) {
-      if (column.quantity == LogQuantity::current) column.factor *= constants[column.index];
-      width_ = std::max(width_, column.place + 1);
-    }
+    for (Column& column : columns_.columns)
+      if (column.quantity == ColumnQuantity::current) column.factor *= constants[column.index];
   }
 
   MeasuredLog read() {
@@ -120,7 +116,7 @@ class LogReader {
       if (columns_.has_poses) keepSign(row, before);
       grid.add(t, row, [this] { return fmt::format("{}:{}", shownPath(file_), line_); });
     }
-    MeasuredLog log = parted(grid.finish(file_), motion);
+    MeasuredLog log = parted(grid.finish(file_, first_lacking_), motion);
     log.read_as = columns_.read_as;
     log.ignored = columns_.ignored;
     return log;
@@ -128,22 +124,29 @@ class LogReader {
 
  private:
   /// Fills `row` and returns its instant.
-  double parse(std::string& line, std::vector<double>& row) const {
+  double parse(std::string& line, std::vector<double>& row) {
     if (dialect_.decimal_comma) std::replace(line.begin(), line.end(), ',', '.');
     const std::vector<std::string_view> cells = splitCells(line, dialect_.separator);
-    if (cells.size() < width_)
-      throw CsvError(fmt::format("{}:{}: error: {} cell{}, expected at least {}", shownPath(file_), line_, cells.size(),
-                                 cells.size() == 1 ? "" : "s", width_));
+    if (const std::size_t width = dialect_.header_cells.size(); cells.size() != width)
+      throw CsvError(fmt::format("{}:{}: error: {} cell{}, expected {}, one for each column of the header",
+                                 shownPath(file_), line_, cells.size(), cells.size() == 1 ? "" : "s", width));
     double t = not_there;
-    for (const LogColumn& column : columns_.columns)
-      (column.quantity == LogQuantity::time ? t : row[slotOf(column, columns_)]) =
-          cell(cells[column.place], column) * column.factor;
+    for (const Column& column : columns_.columns) {
+      const double value = cell(cells[column.place], column) * column.factor;
+      (column.quantity == ColumnQuantity::time ? t : row[slotOf(column, columns_)]) = value;
+      if (std::isnan(value) && first_lacking_.empty())
+        first_lacking_ = fmt::format("'{}' in line {}", shown(column.name), line_);
+    }
+    if (columns_.has_angles) {
+      const Eigen::Vector4d q = quaternionOfAngles({row[3], row[4], row[5]});
+      std::copy(q.begin(), q.end(), row.begin() + 3);
+    }
     if (std::isnan(t))
       throw CsvError(fmt::format("{}:{}: error: no instant, expected a number", shownPath(file_), line_));
     return t;
   }
 
-  double cell(std::string_view text, const LogColumn& column) const {
+  double cell(std::string_view text, const Column& column) const {
     if (text.empty() || text == "nan" || text == "NaN" || text == "NA") return not_there;
     const LeadingNumber number = leadingNumber(text);
     if (number.length != text.size() || !std::isfinite(number.value))
@@ -164,8 +167,8 @@ class LogReader {
   std::string file_;
   std::ifstream stream_;
   CsvDialect dialect_;
-  LogColumns columns_;
-  std::size_t width_ = 0;
+  Columns columns_;
+  std::string first_lacking_;  ///< the first cell without a number, in words
   int line_ = 0;
 };
 

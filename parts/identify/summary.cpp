@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
 #include "report/text/text.h"
 #include "parts/identify/identify.h"
 
@@ -121,7 +122,7 @@ std::string identifySummary(const IdentifyResult& result) {
   out["parameters"] = listOf(result.numbers);
   out["not_seen"] = result.unseen;
   out["version"] = result.version;
-  return out.dump(2) + "\n";
+  return jsonText(out, 2) + "\n";
 }
 
 std::string identifyTable(const IdentifyResult& result) {

@@ -7,11 +7,9 @@
 #include <string>
 #include <thread>
 
-#include "apps/files_apart.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
-#include "model/scenario_files.h"
 #include "parts/map/pose_map.h"
 
 namespace ursula {
@@ -37,8 +35,7 @@ int map(const MapOptions& options) {
   const bool writes = !options.out.empty() || !draws;
   if (draws && options.picture == "-" && options.out == "-")
     throw UsageError("--out - and --picture -: expected standard output for one of them");
-  const Scenario scenario = readScenarioOrInput(options.scenario);
-  requireApart(scenario, {options.out, options.picture});
+  const Scenario scenario = openScenario(options.scenario, {options.out, options.picture});
   const PoseGrid grid = gridOf(options, scenario);
   if (draws && grid.size() > most_drawn)
     throw UsageError(fmt::format("--picture: {} poses, expected at most {}", grid.size(), most_drawn));

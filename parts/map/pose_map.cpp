@@ -11,12 +11,12 @@
 #include "base/scalar.h"
 #include "base/text.h"
 #include "model/instants.h"
+#include "model/torque_names.h"
 #include "parts/fast/batch_dynamics.h"
 #include "nocsolver/legs/leg_model.h"
 #include "parts/fast/solver.h"
 #include "validation/subject/scaled_jacobian.h"
 #include "validation/subject/subject.h"
-#include "validation/subject/torque_names.h"
 
 namespace ursula {
 namespace {

@@ -13,7 +13,6 @@
 #include "apps/progress.h"
 #include "apps/verbs.h"
 #include "base/output_file.h"
-#include "model/scenario_files.h"
 #include "parts/prove/prove.h"
 
 namespace ursula {
@@ -122,7 +121,7 @@ int prove(const ProveOptions& options) {
   refuseFile(options.out);
   const std::filesystem::path page = std::filesystem::path(options.out) / "prove.html";
   if (!options.out.empty()) requireWritable(page);  // the rest takes minutes
-  const Scenario scenario = options.scenario.empty() ? provingGround() : readScenarioOrInput(options.scenario);
+  const Scenario scenario = options.scenario.empty() ? provingGround() : openScenario(options.scenario);
   ProveResult found;
   found.scenario = scenario.name;
   found.seed = options.seed;

@@ -1,9 +1,7 @@
 #include <memory>
 
-#include "apps/files_apart.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
-#include "model/scenario_files.h"
 #include "parts/simulate/simulate.h"
 
 namespace ursula {
@@ -27,8 +25,7 @@ void addPoses(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
   verb->callback([options, &run] {
     run = [options] {
-      const Scenario scenario = readScenarioOrInput(options->scenario);
-      requireApart(scenario, {options->out});
+      const Scenario scenario = openScenario(options->scenario, {options->out});
       const TimeSeries series = alongMotion(scenario, [&] { return poseSeries(scenario, options->samples); });
       writeOutput(options->out, csvText(series.names, series.columns));
       return exit_passed;

@@ -5,12 +5,10 @@
 #include <memory>
 
 #include "apps/choice.h"
-#include "apps/files_apart.h"
 #include "apps/output.h"
 #include "apps/validate_options.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
-#include "model/scenario_files.h"
 #include "parts/simulate/simulate.h"
 #include "validation/findings/findings.h"
 #include "validation/verdict/effort_words.h"
@@ -38,8 +36,7 @@ std::string whatIsMissing(const Simulation& run, const TorqueFile& file, const S
 }
 
 int simulateVerb(const SimulateOptions& options) {
-  const Scenario scenario = readScenarioOrInput(options.scenario);
-  requireApart(scenario, {options.out});
+  const Scenario scenario = openScenario(options.scenario, {options.out});
   const TorqueFile file = within(readTorquesAloud(options.torques, options.map, scenario.manipulator->motors()),
                                  scenario.trajectory->duration());
   const Deadline deadline(options.time_limit);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/errors.h"
+#include "base/utf8.h"
 #include "model/instants.h"
 #include "nocsolver/errors.h"
 #include "parts/fast/batch_dynamics.h"
@@ -120,7 +121,7 @@ std::string marginName(const Manipulator& manipulator) {
 
 void failed(const char* why, SweepPoint& point) {
   point.verdict = "error";
-  point.error = why;
+  point.error = utf8(why);
   point.values.clear();
 }
 

@@ -36,7 +36,7 @@ std::string logIn(const std::filesystem::path& folder, const std::string& name) 
   if (out.find_first_of("\\\n\r") != std::string::npos)
     throw std::invalid_argument(
         fmt::format("{}: Slurm cannot write logs to a path with a backslash or line break, expected another --db",
-                    folder.string()));
+                    shownPath(folder.string())));
   return out + "/" + name;
 }
 
@@ -46,7 +46,7 @@ void requireUsersOwn(const std::string& option) {
   for (const std::string ours : {"--array", "-a", "--dependency", "-d", "--wrap", "--parsable", "--test-only"})
     if (ours.size() == 2 ? name[1] != '-' && name.substr(0, 2) == ours : name.size() > 3 && ours.rfind(name, 0) == 0)
       throw std::invalid_argument(
-          fmt::format("[slurm] options: '{}' is not to be set here: ursula sets {} itself", option, ours));
+          fmt::format("[slurm] options: '{}' is not to be set here: ursula sets {} itself", shown(option), ours));
 }
 
 /// Escapes an option as sbatch's words: "--comment=a b" is one, "-A x" and "--account x" are two.
@@ -212,7 +212,7 @@ std::vector<QueuedTask> readQueue(const std::string& answer) {
       if (index != "N/A") task.index = std::stoi(index);
       task.state = line.substr(second + 1);
     } catch (const std::logic_error&) {
-      throw std::runtime_error(fmt::format("squeue said '{}', expected it in the form {}", line, queue_format));
+      throw std::runtime_error(fmt::format("squeue said '{}', expected it in the form {}", shown(line), queue_format));
     }
     out.push_back(task);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/text.h"
 #include "base/toml_bounds.h"
 #include "model/toml_reader.h"
 
@@ -144,7 +145,7 @@ SlurmSettings slurmOf(const TomlSection& table) {
   for (const std::string& option : out.options)
     if (option.rfind("-", 0) != 0 || option.find_first_of("\n\r") != std::string::npos)
       table.fail("options",
-                 fmt::format("'{}', expected an option of sbatch in one line, such as '--account=x'", option));
+                 fmt::format("'{}', expected an option of sbatch in one line, such as '--account=x'", shown(option)));
   return out;
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/provenance.h"
 #include "base/sha1.h"
+#include "base/utf8.h"
 #include "model/scenario_files.h"
 #include "model/scenario_numbers.h"
 #include "model/scenario_sections.h"
@@ -132,7 +133,7 @@ SweepIdentity SweepPlan::identity() const {
   SweepIdentity out;
   out.text = file_.text;
   out.version = buildProvenance().version;
-  out.file = file_.file.string();
+  out.file = utf8(file_.file.string());
   out.scenario = bytesOf(file_.scenario);
   out.name = base_.name;
   out.what = ursula::name(file_.work);

@@ -4,12 +4,13 @@
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
+#include <system_error>
 
-#include "apps/command.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "parts/sweep/sweep_verbs.h"
 #include "apps/verbs.h"
+#include "base/child_process.h"
 #include "base/output_file.h"
 #include "base/text.h"
 #include "parts/sweep/merge.h"
@@ -34,6 +35,14 @@ SlurmJob jobOf(const SweepPlan& plan, const SlurmCall& call) {
   return out;
 }
 
+std::string outputOf(const std::vector<std::string>& words) try {
+  return answerOf(words);
+} catch (const std::system_error& refusal) {
+  if (refusal.code() == std::errc::no_such_file_or_directory)
+    throw std::runtime_error("there is no " + words.front() + " on PATH");
+  throw;
+}
+
 std::vector<QueuedTask> queueOf(const SlurmJobs& jobs) {
   if (jobs.shards == 0) return {};
   return readQueue(outputOf({"squeue", "--noheader", "--array", fmt::format("--user={}", ::getuid()),
@@ -46,7 +55,7 @@ std::int64_t submitted(const std::vector<std::string>& words) {
   try {
     return std::stoll(answer);
   } catch (const std::logic_error&) {
-    throw std::runtime_error(fmt::format("sbatch said '{}', expected the number of a job", answer));
+    throw std::runtime_error(fmt::format("sbatch said '{}', expected the number of a job", shown(answer)));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
 #include "report/text/result_facts.h"
 #include "report/files/run.h"
 
@@ -79,7 +80,7 @@ std::string suiteJson(const std::vector<SuiteEntry>& entries) {
                       {"seconds", rounded(secondsOf(entries))},
                       {"run", runOf(entries)},
                       {"scenarios", scenarios}};
-  return suite.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText(suite, 2) + "\n";
 }
 
 }  // namespace ursula::report

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
 #include "report/files/report.h"
 #include "report/text/result_facts.h"
 
@@ -97,12 +98,12 @@ std::string summaryJson(const ValidationResult& result) {
                   {"provenance", object(result.provenance)}};
   if (result.deviation) summary["deviation"] = deviationJson(*result.deviation);
   addCauses(result, summary);
-  return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText(summary, 2) + "\n";
 }
 
 std::string errorJson(const std::string& scenario, const std::string& error) {
   const Json json = {{"scenario", scenario}, {"verdict", "error"}, {"error", error}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText(json, 2) + "\n";
 }
 
 }  // namespace ursula::report

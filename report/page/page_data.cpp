@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/json_text.h"
 #include "report/text/quantity.h"
 #include "validation/verdict/effort_words.h"
 
@@ -65,7 +66,7 @@ Json eventsJson(const ValidationResult& result) {
 /// Writes JSON that can stand in a <script> block: without "<", so that neither "</script" nor "<!--" ends or breaks
 /// it, and without characters that HTML does not have. All of these occur in strings only.
 std::string inScript(const Json& json) {
-  std::string out = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string out = jsonText(json);
   for (const auto& [odd, escape] :
        {std::pair<std::string, const char*>{"<", "\\u003c"}, {"\xEF\xBF\xBE", "\\ufffe"}, {"\xEF\xBF\xBF", "\\uffff"}})
     for (std::size_t at = out.find(odd); at != std::string::npos; at = out.find(odd, at))

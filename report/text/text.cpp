@@ -3,18 +3,18 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <sstream>
+
+#include "base/utf8.h"
 
 namespace ursula::report {
 namespace {
 
 constexpr const char* replacement = "\xEF\xBF\xBD";  // U+FFFD
 
-/// Removes U+FFFE and U+FFFF, which XML 1.0 forbids.
+/// Replaces U+FFFE and U+FFFF, which XML 1.0 forbids.
 std::string validUtf8(const std::string& text) {
-  using nlohmann::json;
-  std::string out = json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
+  std::string out = utf8(text);
   for (const char* forbidden : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"})
     for (std::size_t at = out.find(forbidden); at != std::string::npos; at = out.find(forbidden, at))
       out.replace(at, 3, replacement);

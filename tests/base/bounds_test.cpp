@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "base/text_source.h"
 #include "base/toml_bounds.h"
+#include "base/utf8.h"
 #include "model/scenario.h"
 #include "tests/base/temporary_folder.h"
 #include "tests/model/refusals.h"
@@ -119,6 +120,14 @@ TEST(CsvBounds, namesLineColumnAndNoMoreThanTheCell) {
   EXPECT_THAT(saidOfCsv("x\n" + std::string(500, 'a') + "\n"),
               AllOf(HasSubstr("aaa …' in column"), Not(HasSubstr(std::string(90, 'a')))));
   EXPECT_THAT(saidOfCsv("x\n1e-400\n"), HasSubstr("'1e-400' in column 'x', expected a number that a double can hold"));
+}
+
+TEST(Utf8, takesOtherBytesForLatin1) {
+  EXPECT_EQ(utf8("plain ψ 字 😀"), "plain ψ 字 😀");
+  EXPECT_EQ(utf8("\xb5m, 20 \xb0"), "µm, 20 °");
+  EXPECT_EQ(utf8("ψ\xe4"), "ψä");
+  EXPECT_EQ(utf8("\xe2\x82"), "\xc3\xa2\xc2\x82") << "half a character";
+  EXPECT_EQ(utf8(""), "");
 }
 
 TEST(ShownText, holdsNothingThatATerminalObeys) {

@@ -46,6 +46,22 @@ TEST(ChildProcess, isAskedAndAnswers) {
   EXPECT_EQ(cat.howItEnded(), "ended with exit code 0");
 }
 
+TEST(AnswerOf, givesInputLargerThanAPipeAndTakesAsMuch) {
+  std::signal(SIGPIPE, SIG_IGN);
+  const std::string much(300'000, 'x');
+  EXPECT_EQ(answerOf({"cat"}, much), much);
+  EXPECT_EQ(answerOf({"sh", "-c", "echo done"}, much), "done\n") << "it need not read";
+  EXPECT_THROW(answerOf({"sh", "-c", "cat; exit 3"}, "a"), std::runtime_error);
+  EXPECT_THROW(answerOf({"/nowhere/cat"}), std::system_error);
+}
+
+TEST(AnswerOf, endsAtItsDeadlineWhetherItReadsOrAnswers) {
+  std::signal(SIGPIPE, SIG_IGN);
+  for (const char* hangs : {"sleep 1000", "cat >/dev/null; sleep 1000", "echo half; exec >&-; sleep 1000"}) {
+    EXPECT_THROW(answerOf({"sh", "-c", hangs}, std::string(300'000, 'x'), Deadline(0.05)), OutOfTime) << hangs;
+  }
+}
+
 TEST(ChildProcess, hasFurtherVariablesAndOursOtherwise) {
   ::setenv("URSULA_KEPT", "kept", 1);
   ::setenv("URSULA_OTHER", "ours", 1);

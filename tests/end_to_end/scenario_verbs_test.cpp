@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "base/utf8.h"
 #include "tests/end_to_end/program.h"
 #include "tests/model/scenario_text.h"
 #include "tests/support/matchers.h"
@@ -90,6 +91,78 @@ TEST(CheckVerb, warnsAndPasses) {
                              HasSubstr("a.toml: the scenario and its motion are valid; 1 warning\n")));
   EXPECT_EQ(run.err, "");
   EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "a.svg"), HasSubstr("</svg>"));
+}
+
+std::size_t countOf(const std::string& text, const std::string& what) {
+  std::size_t count = 0;
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
+  return count;
+}
+
+TEST(Warnings, ofCheckAreSaidOnceByEachVerbThatUsesTheMotion) {
+  const Program ursula;
+  ursula.write("good.toml", good_scenario);
+  ursula.write("odd.toml", replaced(good_scenario, "[manipulator]\n", "[manipulator]\ngravity = [0, 0, 9.81]\n"));
+  ASSERT_EQ(ursula("inverse good.toml --samples 31 --out tau.csv").exit_code, 0);
+  for (const std::string name : {"good", "odd"}) {
+    ursula.write("of_" + name + ".toml", "scenario = \"" + name +
+                                             ".toml\"\nwhat = \"inverse\"\ndesign = \"grid\"\n[[vary]]\nkey = "
+                                             "\"manipulator.platform.mass\"\nvalues = [500.0]\n");
+    for (const std::string& call : {"inverse " + name + ".toml --samples 2", "poses " + name + ".toml --samples 2",
+                                    "export " + name + ".toml --format sdf", "map " + name + ".toml --x -0.1,0.1,2",
+                                    "simulate " + name + ".toml --torques tau.csv --time-limit 1e-3",
+                                    "validate " + name + ".toml --time-limit 1e-3 --quiet --out results_of_" + name,
+                                    "sweep of_" + name + ".toml"}) {
+      const UrsulaRun run = ursula(call);
+      EXPECT_EQ(countOf(run.err, "odd.toml:4:11: warning: manipulator.gravity: "), name == "odd" ? 1 : 0)
+          << call << "\n"
+          << run.err;
+      EXPECT_EQ(countOf(run.err + run.out, "warning"), name == "odd" ? 1 : 0) << call;
+    }
+  }
+}
+
+TEST(CheckVerb, doesNotReplaceTheScenarioThatItsInputIs) {
+  const Program ursula;
+  ursula.write("my.toml", good_scenario);
+  expectRefused(ursula, {{"check - --picture my.toml <my.toml", "the program reads this file, expected another file"}});
+  EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "my.toml"), good_scenario);
+  EXPECT_EQ(ursula("check - --picture my.svg <my.toml").exit_code, 0);
+  EXPECT_EQ(ursula("check - --picture /dev/null").exit_code, 2) << "an empty input is no scenario";
+}
+
+/// Returns a file of results; the test fails unless it is UTF-8.
+std::string utf8File(const std::filesystem::path& file) {
+  const std::string text = TemporaryFolder::read(file);
+  EXPECT_FALSE(text.empty()) << file;
+  EXPECT_TRUE(utf8(text) == text) << file;
+  return text;
+}
+
+TEST(Latin1, inALogOrAFilesNameIsWrittenAsUtf8) {
+  const Program ursula;
+  ursula.write("m\xb5.toml", good_scenario);
+  ASSERT_EQ(ursula("inverse m\xb5.toml --samples 301 --out own.csv").exit_code, 0);
+  std::string log = TemporaryFolder::read(ursula.folder() / "own.csv");
+  for (auto at = log.find('\n'); at != std::string::npos; at = log.find('\n', at + 3))
+    log.insert(at, at == log.find('\n') ? ",\xb5" : ",0");
+  ursula.write("l\xb0.csv", log);
+  const UrsulaRun plain = ursula("identify m\xb5.toml --measured own.csv --out plain --quiet");
+  const UrsulaRun run = ursula("identify m\xb5.toml --measured l\xb0.csv --out 'o\xb5' --quiet");
+  EXPECT_EQ(run.exit_code, plain.exit_code) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("columns that are not used: "));
+  EXPECT_TRUE(utf8(run.err) == run.err);
+  EXPECT_THAT(utf8File(ursula.folder() / "o\xb5/summary.json"), HasSubstr("\"µ\""));
+  utf8File(ursula.folder() / "o\xb5/report.html");
+  EXPECT_EQ(ursula("validate m\xb5.toml --time-limit 0.1 --out v").exit_code, 3);
+  for (const char* file : {"summary.json", "report.html", "junit.xml"})
+    EXPECT_THAT(utf8File(ursula.folder() / "v" / file), HasSubstr("mµ.toml")) << file;
+  ursula.write("s\xb5.toml",
+               "scenario = \"own.toml\"\nwhat = \"inverse\"\ndesign = \"grid\"\n[[vary]]\nkey = "
+               "\"manipulator.platform.mass\"\nvalues = [500.0]\n");
+  ursula.write("own.toml", good_scenario);
+  ASSERT_EQ(ursula("sweep s\xb5.toml --db s.db").exit_code, 0);
+  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "s.db"), HasSubstr("sµ.toml"));
 }
 
 TEST(CheckVerb, drawsAPngWhereTheNameEndsSo) {

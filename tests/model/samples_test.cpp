@@ -3,10 +3,13 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <random>
 
 #include "base/real50.h"
+#include "model/columns.h"
 #include "model/trajectories/trajectories.h"
 #include "tests/model/derivatives.h"
 #include "tests/model/refusals.h"
@@ -169,6 +172,43 @@ TEST(Samples, nameAMissingColumn) {
   table.names[2] = "p_yy_m";
   EXPECT_EQ(refusal<CsvError>([&] { makeSamples(table); }),
             "pose.csv:1: error: missing column 'p_y_m', expected it in the header, did you mean 'p_yy_m'?");
+}
+
+/// Writes a motion in other columns, and reads it by their meaning.
+CsvTable readFrom(const std::string& text, bool loads = false) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "by_meaning.csv";
+  std::ofstream(file) << text;
+  return readByMeaning(file, loads);
+}
+
+TEST(Columns, ofAMotionAreReadInTheirUnits) {
+  const CsvTable table = readFrom(
+      "time [ms];surge_mm;p_y_mm;heave;roll_deg;pitch_deg;yaw_rad;who\n0;1;2;3;90;0;0;a\n70;1;2;3;0;0;0,5;b\n");
+  EXPECT_EQ(table.at("t_s"), (std::vector<double>{0, 0.07})) << "the nearest doubles";
+  EXPECT_EQ(table.at("p_x_m").front(), 0.001);
+  EXPECT_EQ(table.at("p_z_m").front(), 3);
+  EXPECT_NEAR(table.at("q_x").front(), std::sqrt(0.5), eps);
+  EXPECT_NEAR(table.at("q_z").back(), std::sin(0.25), eps);
+  EXPECT_EQ(table.find("who"), nullptr);
+}
+
+TEST(Columns, byTheContractAreTakenAsTheyStand) {
+  const std::string text = "t_s,p_x_m,p_y_m,p_z_m,q_w,q_x,q_y,q_z,t_ms,v_x_m_s\n0.1,1,2,3,1,0,0,0,7,8\n";
+  EXPECT_EQ(readFrom(text).at("t_s").front(), 0.1);
+  EXPECT_EQ(meaningInWords(std::filesystem::path(testing::TempDir()) / "by_meaning.csv", false), "");
+  readFrom("t_ms,p_x_m,p_y_m,p_z_m,q_w,q_x,q_y,q_z\n0.1,1,2,3,1,0,0,0\n");
+  EXPECT_EQ(meaningInWords(std::filesystem::path(testing::TempDir()) / "by_meaning.csv", false), "'t_ms' time × 0.001");
+}
+
+TEST(Columns, areRefusedWhereTheyAreDoubtful) {
+  const auto refused = [](const std::string& text, bool loads = false) {
+    return refusal<CsvError>([&] { readFrom(text, loads); });
+  };
+  EXPECT_THAT(refused("t_ms,time [us],p_x_m,p_y_m,p_z_m,q_w,q_x,q_y,q_z\n"), HasSubstr("'t_ms' time × 0.001 and"));
+  EXPECT_THAT(refused("t_s,p_x_m,p_y_m,p_z_deg,q_w,q_x,q_y,q_z\n"),
+              HasSubstr("by_meaning.csv:1: error: missing column 'p_z_m'"));
+  EXPECT_THAT(refused("t_s,f_x_N,f_y_N,f_z_N,m_x_Nm,m_y_Nm\n", true), HasSubstr("missing column 'm_z_Nm'"));
+  EXPECT_EQ(readFrom("t_s,f_x_kN,f_y_N,f_z_N,m_x_Nm,m_y_Nm,m_z_Nm\n0,1,2,3,4,5,6\n", true).at("f_x_N").front(), 1000);
 }
 
 }  // namespace

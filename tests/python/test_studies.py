@@ -3,6 +3,7 @@
 import csv
 import io
 import pickle
+import warnings
 
 import numpy as np
 import pytest
@@ -64,7 +65,15 @@ def test_what_simulate_cannot_take_is_refused(helix):
 def test_check_warns_and_refuses(program, helix, tmp_path):
     odd = tmp_path / "odd.toml"
     odd.write_text(helix.read_text().replace("mass = 500.0", "mass = 5e-7"))
-    found = ursula.check(ursula.read_scenario(odd))
+    with pytest.warns(UserWarning, match="odd.toml:.*: warning: ") as warned:
+        s = ursula.read_scenario(odd)
+    found = ursula.check(s)
+    assert [str(each.message) for each in warned] == found and warned[0].filename == __file__
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ursula.read_scenario(helix)
+        with pytest.raises(UserWarning, match="mass"):
+            ursula.scenario(odd.read_text())
     assert found and all(each in program("check", odd).stdout for each in found)
     assert ursula.check(ursula.read_scenario(helix)) == []
     far = ursula.scenario(helix.read_text().replace("radius = 0.2", "radius = 20.0"))

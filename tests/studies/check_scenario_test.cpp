@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include "model/trajectories/trajectories.h"
+#include "tests/model/refusals.h"
 #include "tests/model/scenario_text.h"
 #include "tests/support/matchers.h"
 #include "tests/validation/scenario_files.h"
+#include "validation/subject/motion_check.h"
+#include "validation/subject/singular_everywhere.h"
 
 namespace ursula {
 namespace {
@@ -110,6 +114,77 @@ TEST(OddScenario, legsOfOtherKindsHaveLimitsOfTheirOwn) {
   // A carriage has no length.
   const auto carriage = startingWith("PUS", [](Leg& leg) { leg.proximal.inertia *= 100; });
   EXPECT_THAT(warnings(carriage), IsEmpty());
+}
+
+/// A motion sampled every 10 ms; `late` is added to one stamp, and `wave` to each by its own sine.
+Scenario sampledWith(double late, double wave) {
+  Scenario scenario = starting("UPS");
+  std::vector<TimedPose> samples;
+  for (int k = 0; k <= 400; ++k) {
+    const double s = k / 400.0, path = s * s * s * (10 - 15 * s + 6 * s * s);
+    const double t = 0.01 * k + (k == 150 ? late : 0) + wave * std::sin(2.0 * k) * (k == 0 ? 0 : 1);
+    samples.push_back({t, {0, 0, 1.4 + 0.1 * path}, {1, 0, 0, 0}});
+  }
+  scenario.trajectory = makeSamples(samples);
+  return scenario;
+}
+
+TEST(OddScenario, oneStampThatIsLateIsNamedByItsRow) {
+  for (const double late : {0.0094, -0.003, 0.0006})
+    EXPECT_THAT(warnings(sampledWith(late, 0)),
+                testing::Contains(testing::AllOf(HasSubstr("row 151 of the samples has t = 1.5"),
+                                                 HasSubstr(late > 0 ? " s later than" : " s earlier than"))))
+        << late;
+  EXPECT_THAT(warnings(sampledWith(0, 0)), IsEmpty());
+  EXPECT_THAT(warnings(sampledWith(0, 0.001)), testing::Not(testing::Contains(HasSubstr("of the samples has t"))))
+      << "rows that are all uneven are no slip of one";
+}
+
+/// The acceleration is largest at the rows beside the late one, which 201 equal instants need not meet.
+TEST(OddScenario, hasteIsFoundAtTheRowsThemselves) {
+  EXPECT_THAT(warnings(sampledWith(0.0094, 0)), testing::Contains(HasSubstr("times 9.81 m/s2")));
+}
+
+/// Puts each platform point where the base's own is, `share` as far out, turned about z and moved by `by`.
+Scenario withSimilarHexagons(double share, double by) {
+  Scenario scenario = starting("UPS");
+  ManipulatorParameters machine = scenario.manipulator->parameters();
+  double side = 1;
+  for (Leg& leg : machine.legs) {
+    leg.platform_point = share * leg.base_point + by * side * Vector3d::UnitX();
+    side = -side;
+  }
+  scenario.manipulator = std::make_shared<const Manipulator>(machine);
+  return scenario;
+}
+
+TEST(SingularMachine, isToldOfSimilarHexagonsOnACircleAlone) {
+  const auto found = singularEverywhere(withSimilarHexagons(0.6, 0));
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->similarity, 0.6, 1e-12);
+  EXPECT_THAT(found->words(),
+              testing::AllOf(StartsWith("singular in every pose: similar hexagons at base and platform"),
+                             HasSubstr("move the joints pairwise")));
+  const auto nearly = singularEverywhere(withSimilarHexagons(0.6, 1e-6));
+  ASSERT_TRUE(nearly);
+  EXPECT_THAT(nearly->words(), StartsWith("nearly singular in every pose"));
+  EXPECT_FALSE(singularEverywhere(withSimilarHexagons(0.6, 0.05)));
+  for (const char* kind : {"URS", "UPS", "RUS", "PUS"}) EXPECT_FALSE(singularEverywhere(starting(kind))) << kind;
+  EXPECT_THAT(warnings(withSimilarHexagons(0.6, 0)),
+              testing::Contains(HasSubstr("manipulator.leg: the machine is singular in every pose")));
+}
+
+TEST(SingularMachine, isRefusedAsOne) {
+  const Scenario similar = withSimilarHexagons(0.6, 0);
+  EXPECT_THAT(refusal<ScenarioError>([&] { tryMotion(similar); }),
+              testing::AllOf(HasSubstr("error: the machine is singular in every pose"),
+                             testing::Not(HasSubstr("on one side"))));
+}
+
+TEST(Picture, isWellFormedWhateverTheNameIs) {
+  const std::string svg =
+      picture(parseScenario(replaced(good_scenario, "name = \"small\"", "name = \"a]]>b & <c>\""), "a.toml"));
+  EXPECT_THAT(svg, testing::AllOf(HasSubstr("a]]&gt;b &amp; &lt;c&gt;"), testing::Not(HasSubstr("]]>"))));
 }
 
 TEST(Picture, drawsTheMachineInTwoViews) {

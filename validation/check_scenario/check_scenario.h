@@ -12,18 +12,16 @@ namespace ursula {
 /// checked.
 std::vector<std::string> warnings(const Scenario& scenario);
 
-/// Returns only the warnings for which another unit makes the number usual: "did you mean mm? …".
-std::vector<std::string> hints(const Scenario& scenario);
-
 /// Returns the machine at the start of the motion, from the front and from above, as SVG. Legs that cannot reach that
 /// pose are drawn without their knees.
 std::string picture(const Scenario& scenario);
 
 /// A value that a machine or motion may have, but rarely has.
 struct Oddity {
-  std::string key;        ///< dotted, of the scenario: `manipulator.leg[2].proximal.mass`
-  std::string what;       ///< the number, the usual value, and the probable intention
-  std::string hint = {};  ///< "did you mean …?", if another unit makes it usual
+  std::string key;           ///< dotted, of the scenario: `manipulator.leg[2].proximal.mass`
+  std::string what;          ///< the number, the usual value, and the probable intention
+  std::string hint = {};     ///< "did you mean …?", if another unit makes it usual
+  std::string subject = {};  ///< tells several oddities of one key apart: "stamp"
 };
 
 /// "did you mean mm? 1300 mm are 1.3 m", of a number that was read in metres.

@@ -13,6 +13,7 @@
 #include "nocsolver/errors.h"
 #include "nocsolver/noc/noc.h"
 #include "validation/check_scenario/check_scenario.h"
+#include "validation/subject/singular_everywhere.h"
 
 namespace ursula {
 namespace {
@@ -49,11 +50,50 @@ void radians(const Scenario& scenario, std::vector<Oddity>& out) {
   }
 }
 
+/// Equally spaced instants and the knots, between which an acceleration of a spline has its largest values. Of many
+/// knots every n-th is taken.
+std::vector<double> tellingInstants(const Trajectory& trajectory) {
+  constexpr std::size_t most_knots = 20'000;
+  std::vector<double> out = equallySpaced(trajectory.duration(), 201);
+  const std::vector<double>& knots = trajectory.knots();
+  for (std::size_t k = 0; k < knots.size(); k += 1 + knots.size() / most_knots) out.push_back(knots[k]);
+  return out;
+}
+
+/// Detects a row whose time stamp alone is late or early: the two steps beside it add up to two of the usual ones,
+/// which nine of ten rows have. The spline through such a row accelerates without need.
+void unevenStamp(const Scenario& scenario, std::vector<Oddity>& out) {
+  const std::vector<double>& t = scenario.trajectory->knots();
+  if (scenario.trajectory->kind() != "samples" || t.size() < 10) return;
+  std::vector<double> steps(t.size() - 1);
+  for (std::size_t k = 0; k < steps.size(); ++k) steps[k] = t[k + 1] - t[k];
+  std::vector<double> sorted = steps;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+  const double usual = sorted[sorted.size() / 2];
+  const auto off = [&](double step, double by) { return std::abs(step - usual) > by * usual; };
+  const auto odd = std::count_if(steps.begin(), steps.end(), [&](double step) { return off(step, 0.01); });
+  if (10 * static_cast<std::size_t>(odd) > steps.size()) return;
+  std::size_t worst = 0;
+  double most = 0.05 * usual;
+  for (std::size_t k = 1; k < steps.size(); ++k)
+    if (!off((steps[k - 1] + steps[k]) / 2, 0.01) && std::abs(steps[k - 1] - usual) > most) {
+      most = std::abs(steps[k - 1] - usual);
+      worst = k;
+    }
+  if (worst == 0) return;
+  out.push_back(
+      {"trajectory",
+       fmt::format("row {} of the samples has t = {:.9g} s, {:.4g} s {} the steps of {:.6g} s beside it say: "
+                   "the motion through it accelerates without need. Is its stamp right?",
+                   worst + 1, t[worst], most, steps[worst - 1] > usual ? "later than" : "earlier than", usual),
+       "", "stamp"});
+}
+
 /// Compares the largest acceleration with the machine's gravity, or Earth's.
 void haste(const Scenario& scenario, std::vector<Oddity>& out) {
   constexpr double g = 9.81, hasty = 20;
   double most = 0, at = 0;
-  for (double t : equallySpaced(scenario.trajectory->duration(), 201)) {
+  for (double t : tellingInstants(*scenario.trajectory)) {
     const double size = scenario.trajectory->at(t).p_ddot.norm();
     if (!(size > most)) continue;
     most = size;
@@ -151,8 +191,11 @@ std::vector<Oddity> oddMotion(const Scenario& scenario) {
   radians(scenario, out);
   const TrajectoryKind* kind = trajectoryKind(scenario.trajectory->kind());
   if (kind != nullptr && kind->orientation != nullptr) scalarLast(scenario, kind->orientation, out);
+  unevenStamp(scenario, out);
   haste(scenario, out);
   distance(scenario, out);
+  if (const auto found = singularEverywhere(scenario))
+    out.push_back({"manipulator.leg", "the machine is " + found->words()});
   try {
     legsAtTheirLimits(scenario, out);
   } catch (const PoseError&) {

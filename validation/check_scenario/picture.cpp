@@ -8,6 +8,7 @@
 
 #include "nocsolver/errors.h"
 #include "nocsolver/noc/noc.h"
+#include "report/text/text.h"
 #include "validation/check_scenario/check_scenario.h"
 #include "validation/subject/leg_points.h"
 
@@ -107,16 +108,6 @@ line, polygon { fill: none; stroke-width: 2 } .base { stroke: #666; fill: #6661 
 </style>
 )";
 
-/// Also replaces U+FFFE and U+FFFF, which XML forbids.
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
-  for (const char* forbidden : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"})
-    for (std::size_t at = out.find(forbidden); at != std::string::npos; at = out.find(forbidden, at))
-      out.replace(at, 3, "\xEF\xBF\xBD");
-  return out;
-}
-
 /// A bar of round length, 1, 2 or 5 times a power of ten, a quarter to a half of the panel.
 std::string scaleBar(double scale) {
   const double most = panel / 2.5 / scale, power = std::pow(10, std::floor(std::log10(most)));
@@ -143,7 +134,7 @@ std::string picture(const Scenario& scenario) {
   return fmt::format(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\">\n{}<rect width=\"100%\" height=\"100%\" "
              "fill=\"#fff\"/>\n<text x=\"{}\" y=\"26\" style=\"font-size:16px\">{}, t = 0{}</text>\n",
-             2 * panel, title + panel + 75, style, margin, escaped(scenario.name),
+             2 * panel, title + panel + 75, style, margin, report::escaped(scenario.name),
              pose.reached ? "" : ": the legs cannot take this pose") +
          View(pose, 0, 2, 0, scale, middle).drawing("from the front: x to the right, z up") +
          View(pose, 0, 1, panel, scale, middle).drawing("from above: x to the right, y up") + scaleBar(scale) +

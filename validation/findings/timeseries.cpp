@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "model/quaternions.h"
+#include "model/torque_names.h"
 #include "validation/findings/findings.h"
 #include "validation/replay/windows.h"
-#include "validation/subject/torque_names.h"
 
 namespace ursula {
 namespace {

@@ -13,6 +13,7 @@
 #include "model/legs/leg_type.h"
 #include "model/scenario_files.h"
 #include "nocsolver/noc/noc.h"
+#include "validation/subject/singular_everywhere.h"
 
 namespace ursula {
 namespace {
@@ -112,6 +113,10 @@ void checkMotion(const Scenario& scenario) {
 }
 
 ScenarioError unmade(const Scenario& scenario, const PoseError& refusal) {
+  if (dynamic_cast<const SingularJacobian*>(&refusal) != nullptr)
+    if (const auto found = singularEverywhere(scenario))
+      return ScenarioError(
+          fmt::format("{}: error: the machine is {}", placeInFile(scenario, "manipulator.leg").place, found->words()));
   return ScenarioError(fmt::format("{}: error: the motion cannot be made: {}",
                                    placeInFile(scenario, "trajectory").place, inWords(scenario, refusal)));
 }

@@ -9,7 +9,8 @@
 #include <optional>
 
 #include "base/text.h"
-#include "validation/subject/torque_names.h"
+#include "base/utf8.h"
+#include "model/torque_names.h"
 
 namespace ursula {
 namespace {
@@ -210,7 +211,8 @@ ColumnMap parseColumnMap(const std::vector<std::string>& texts, const Motors& mo
     };
     const auto equals = text.find('=');
     const std::string name(trimmedCell(text.substr(0, equals)));
-    const std::string column(equals == std::string::npos ? "" : trimmedCell(std::string_view(text).substr(equals + 1)));
+    const std::string column =
+        utf8(std::string(equals == std::string::npos ? "" : trimmedCell(std::string_view(text).substr(equals + 1))));
     if (name.empty() || column.empty()) fail(fmt::format("expected NAME=COLUMN, as in {}=tau1", targets[1]));
     const std::optional<ColumnMeaning> meaning = meaningOfTarget(name);
     if (!meaning)

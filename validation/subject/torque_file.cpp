@@ -10,7 +10,7 @@
 
 #include "base/csv.h"
 #include "base/text.h"
-#include "validation/subject/torque_names.h"
+#include "model/torque_names.h"
 
 namespace ursula {
 namespace {

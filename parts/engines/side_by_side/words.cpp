@@ -9,6 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
 #include "report/text/quantity.h"
 #include "parts/engines/side_by_side/side_by_side.h"
 
@@ -172,7 +173,7 @@ std::string sideBySideJson(const SideBySide& found) {
       {"sentence", sentence(found)},
       {"engines", engines},
       {"missing", missing}};
-  return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return jsonText(document, 2) + "\n";
 }
 
 std::string sideBySideCsv(const SideBySide& found) {

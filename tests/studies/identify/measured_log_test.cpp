@@ -1,5 +1,7 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -141,6 +143,88 @@ TEST_F(MeasuredLogs, rowsWithEmptyCellsAreMissingRows) {
   ASSERT_EQ(log.findings.size(), 1U);
   EXPECT_EQ(log.findings[0].kind, "drop_outs");
   EXPECT_EQ(log.findings[0].value, 4);
+}
+
+std::string with(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
+}
+
+TEST_F(MeasuredLogs, aColumnTwiceIsRefusedUnlessOneIsNamed) {
+  EXPECT_THAT(refusal(rows(with(own(), "tau_2_Nm", "tau_1_Nm"), ",")),
+              testing::AllOf(HasSubstr("log.csv:1"), HasSubstr("duplicate column 'tau_1_Nm'")));
+  const std::string text = rows("t_s,q1,q2,q3,q4,q5,enc1,tau1,tau2,tau3,tau4,tau5,tau6", ",");
+  EXPECT_THAT(refusal(text), HasSubstr("missing column 'phi_6_rad'"));
+  std::string more = "t_s,q1,q2,q3,q4,q5,q6,tau1,tau2,tau3,tau4,tau5,tau6,enc1\n";
+  for (int i = 0; i < 20; ++i) more += std::to_string(0.01 * i) + ",1,2,3,4,5,6,1,2,3,4,5,6,9\n";
+  EXPECT_THAT(refusal(more), testing::AllOf(HasSubstr("'q1'"), HasSubstr("'enc1'"), HasSubstr("--map")));
+  EXPECT_EQ(read(more, {"phi_1_rad=enc1"}).motion(0, 0), 9);
+  EXPECT_EQ(read(with(more, "q1", "phi_1_rad")).motion(0, 0), 1) << "the contract's name is certain";
+}
+
+TEST_F(MeasuredLogs, aRowOfAnotherWidthIsRefusedWithItsLine) {
+  const std::string good = rows(own() + ",note", ",");
+  const auto each = [](std::string text, const std::string& end) {
+    for (auto at = text.find('\n', text.find('\n') + 1); at != std::string::npos;
+         at = text.find('\n', at + end.size() + 1))
+      text.insert(at, end);
+    return text;
+  };
+  expectRows(read(each(good, ",0")));
+  EXPECT_THAT(refusal(good), HasSubstr("log.csv:2: error: 13 cells, expected 14"));
+  EXPECT_THAT(refusal(each(good, ",0,0")), HasSubstr("log.csv:2: error: 15 cells, expected 14"));
+}
+
+TEST_F(MeasuredLogs, aLoadIsWholeAndEachOfItsGapsIsSaid) {
+  const auto loaded = [](const std::string& names, const std::string& cells) {
+    std::string text = rows(own(), ",");
+    text.insert(text.find('\n'), names);
+    for (auto at = text.find('\n', text.find('\n') + 1); at != std::string::npos;
+         at = text.find('\n', at + cells.size() + 2))
+      text.insert(at, cells);
+    return text;
+  };
+  EXPECT_THAT(refusal(loaded(",f_x_N", ",1")), HasSubstr("missing column 'f_y_N'"));
+  EXPECT_THAT(refusal(loaded(",f_x_N,f_y_N,f_z_N", ",1,2,3")), HasSubstr("missing column 'm_x_Nm'"));
+  const std::string all = ",f_x_N,f_y_N,f_z_N,m_x_Nm,m_y_Nm,m_z_Nm";
+  const MeasuredLog log = read(loaded(all, ",1,2,3,4,5,6"));
+  EXPECT_EQ(log.load(3, 5), 3);
+  EXPECT_TRUE(log.findings.empty());
+  const MeasuredLog gap = read(with(loaded(all, ",1,2,3,4,5,6"), "1,2,3,4,5,6\n0.07", "1,nan,3,4,5,6\n0.07"));
+  ASSERT_EQ(gap.findings.size(), 1U);
+  EXPECT_THAT(gap.findings[0].what, HasSubstr("the first is 'f_y_N' in line 8"));
+  EXPECT_THAT(refusal(loaded(all, ",1,nan,3,4,5,6")), HasSubstr("the first is 'f_y_N' in line 2"));
+}
+
+TEST_F(MeasuredLogs, latin1IsReadAsUtf8) {
+  const MeasuredLog log = read(with(rows(own(), ","), "t_s", "Time [\xb5s]"), {}, {});
+  EXPECT_NEAR(log.file_step, 1e-8, 1e-15);
+  EXPECT_THAT(log.read_as, HasSubstr("'Time [µs]'"));
+  EXPECT_EQ(read(with(rows(own(), ","), "t_s", "\xb0t"), {"t_s=\xb0t"}).file_rows, 20U)
+      << "as a Latin-1 terminal gives";
+}
+
+/// Twenty rows of a pose that moves and turns, in the given columns.
+TEST_F(MeasuredLogs, posesComeWithQuaternionsOrWithAngles) {
+  const auto log = [](const std::string& pose, double length, double angle) {
+    std::string text = "t_s," + pose + ",tau1,tau2,tau3,tau4,tau5,tau6\n";
+    for (int i = 0; i < 20; ++i)
+      text += fmt::format("{},{},{},{},{},{},{},1,2,3,4,5,6\n", 0.01 * i, 0.1 * length, 0.2 * length,
+                          (1.4 + 0.001 * i) * length, 0.1 * angle, 0.2 * angle, 0.01 * i * angle);
+    return text;
+  };
+  const MeasuredLog rad = read(log("p_x_m,p_y_m,p_z_m,roll_rad,pitch_rad,yaw_rad", 1, 1));
+  const Eigen::Matrix3d Q =
+      (Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY()) *
+       Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
+  ASSERT_TRUE(rad.has_poses);
+  const Eigen::Quaterniond q(rad.motion(10, 3), rad.motion(10, 4), rad.motion(10, 5), rad.motion(10, 6));
+  EXPECT_LE((q.toRotationMatrix() - Q).norm(), 1e-15);
+  const MeasuredLog deg = read(log("surge_mm,sway_mm,heave_mm,roll_deg,pitch_deg,yaw_deg", 1e3, 180 / std::acos(-1.0)));
+  EXPECT_LE((deg.motion - rad.motion).norm(), 1e-13);
+  EXPECT_THAT(refusal(log("p_x_m,p_y_m,p_z_m,roll,pitch,yaw", 1, 1)), HasSubstr("'q_w'")) << "in which unit?";
+  EXPECT_THAT(refusal(log("p_x_m,p_y_m,p_z_m,roll_rad,pitch_rad,yaww_rad", 1, 1)),
+              testing::AllOf(HasSubstr("missing column 'yaw_rad'"), HasSubstr("did you mean 'yaww_rad'?")));
 }
 
 TEST_F(MeasuredLogs, refusalsHaveTheirPlaceAndWhatIsMissing) {

@@ -5,10 +5,10 @@
 
 #include "base/csv.h"
 #include "simbody/simbody_loop.h"
-#include "parts/identify/log_columns.h"
+#include "model/columns.h"
+#include "model/torque_names.h"
 #include "parts/identify/platform_motion.h"
 #include "validation/subject/subject.h"
-#include "validation/subject/torque_names.h"
 
 namespace ursula {
 
@@ -88,8 +88,7 @@ std::string csvOf(const SyntheticRows& rows, const Scenario& scenario) {
     names.push_back(name);
     columns.emplace_back(values.data(), values.data() + values.size());
   };
-  for (int k = 0; k < motor_count; ++k)
-    add(identification::drivenName(motors[static_cast<std::size_t>(k)]), rows.motion.col(k));
+  for (int k = 0; k < motor_count; ++k) add(drivenName(motors[static_cast<std::size_t>(k)]), rows.motion.col(k));
   for (int k = 0; k < motor_count; ++k) add(effortColumn(motors, k), rows.efforts.col(k));
   return csvText(names, columns);
 }

@@ -63,6 +63,10 @@ TEST(SweepFile, refusesWithThePlaceWhatItDoesNotUnderstand) {
               HasSubstr("expected what = 'validate'"));
   EXPECT_THAT(refusedFile("design = \"random\"\ncount = 5\n" + mass + "[slurm]\npartition = \"a b\"\n"),
               HasSubstr("without blanks"));
+  const std::string in_one_line =
+      refusedFile("design = \"random\"\ncount = 5\n" + mass + "[slurm]\noptions = [\"--a\\n--wrap=x\"]\n");
+  EXPECT_THAT(in_one_line, HasSubstr("'--a\\x0a--wrap=x'"));
+  EXPECT_EQ(in_one_line.find('\n'), std::string::npos);
   EXPECT_THAT(refusedFile("design = \"random\"\ncount = 5\n" + mass + "[slurm]\noptions = [\"x\"]\n"),
               HasSubstr("an option of sbatch"));
 }

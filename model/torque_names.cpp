@@ -1,4 +1,4 @@
-#include "validation/subject/torque_names.h"
+#include "model/torque_names.h"
 
 #include <fmt/format.h>
 
