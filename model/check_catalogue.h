@@ -26,7 +26,7 @@ enum class CheckGroup { motors, fast, replay, kinematics, numerics, input };
 enum class LimitFrom {
   exact,     ///< equality, or a theorem
   derived,   ///< counted rounding and errors propagated along the motion
-  measured,  ///< the same computation in other changes of frame, or at other steps or tolerances
+  measured,  ///< the same computation with inputs changed by one rounding, or at other steps or tolerances
 };
 
 /// The description of one check. `ursula explain`, reports and docs/checks.md are made from it. A family in

@@ -144,6 +144,8 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
 std::shared_ptr<const Reference> referenceOf(const Scenario& scenario, const ValidationOptions& options) {
   if (options.progress) options.progress(0, "the right motion");
   const Deadline deadline(options.time_limit, options.asked_to_end);
+  const FormulationFaults faults = options.fault ? options.fault->formulations : FormulationFaults{};
+  if (faults) return std::make_shared<const Reference>(scenario, options.threads, deadline, faults);
   return options.reference ? options.reference : makeReference(scenario, options.threads, deadline);
 }
 

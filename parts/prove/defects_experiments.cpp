@@ -46,12 +46,19 @@ InjectedFault::ScenarioChange another(const ChangeMachine& change) {
   };
 }
 
-/// Builds the engine of the further formulation of `check` from another machine.
-Defect engine(const std::string& name, const char* check, const ChangeMachine& change) {
+/// Falsifies the engine of the further formulation of `check`, or Simbody's loop at the samples for torque.pointwise.
+/// It is wrong wherever it is asked, by its own numbers of legs and in its own frame.
+Defect engine(const std::string& name, const std::string& check, const EngineFault& wrong) {
   InjectedFault fault;
+  if (check == "torque.pointwise") fault.formulations.simbody = wrong;
   for (std::size_t k = 0; k < furtherEngines().size(); ++k)
-    if (furtherEngines()[k].check == std::string(check)) fault.further[k] = another(change);
+    if (furtherEngines()[k].check == check) fault.formulations.further[k] = wrong;
   return faulty(name, fault);
+}
+
+/// Builds it from another machine.
+Defect engine(const std::string& name, const std::string& check, const ChangeMachine& change) {
+  return engine(name, check, EngineFault{change, nullptr});
 }
 
 Defect stabilised(const std::string& name, const ChangeMachine& change) {
@@ -118,6 +125,26 @@ Defect lowerOrder() {
   InjectedFault fault;
   fault.lower_order = true;
   return faulty("an integrator of order 5 for one of order 8", fault);
+}
+
+/// Returns errors inside an engine that depend on leg, motor, axis or frame, so that they differ between its own
+/// frames.
+std::vector<Defect> unevenEngines(const Manipulator& machine) {
+  using P = ManipulatorParameters;
+  const std::size_t third = legOf(machine, 3), fifth = legOf(machine, 5);
+  const Vector3d down = machine.gravity().stableNormalized();
+  return {engine("Simbody: mass of one distal link off by 1e-9", "torque.pointwise",
+                 [=](P& m) { m.legs[fifth].distal.mass *= 1 + 1e-9; }),
+          engine("Simbody: effort of motor 5 off by 1e-9", "torque.pointwise",
+                 {nullptr, [](Vector6d& efforts) { efforts(4) *= 1 + 1e-9; }}),
+          engine("Simbody: gravity along z off by 1e-9", "torque.pointwise", [](P& m) { m.gravity.z() *= 1 + 1e-9; }),
+          engine("Simbody's second loop: effort of motor 5 off by 1e-9", "torque.twin",
+                 {nullptr, [](Vector6d& efforts) { efforts(4) *= 1 + 1e-9; }}),
+          engine("maximal coordinates: mass centre of leg 3 off by 1e-9", "torque.maximal",
+                 [=](P& m) { m.legs[third].distal.center_of_mass *= 1 + 1e-9; }),
+          engine("maximal coordinates: gravity across the given one off by 1e-9", "torque.maximal",
+                 [=](P& m) { m.gravity += 1e-9 * (m.gravity - m.gravity.dot(down) * down); }),
+          engine("MuJoCo: gravity along z off by 1e-9", "torque.mujoco", [](P& m) { m.gravity.z() *= 1 + 1e-9; })};
 }
 
 std::vector<Defect> wrongEngines(const Manipulator& machine) {
@@ -232,6 +259,7 @@ std::vector<Defect> controls() {
 
 std::vector<Defect> experimentDefects(const Manipulator& machine) {
   std::vector<Defect> out = wrongEngines(machine);
+  append(out, unevenEngines(machine));
   append(out, wrongReactionForces(machine));
   append(out, wrongReplays(machine));
   append(out, controls());

@@ -14,6 +14,7 @@ add_executable(foundation_tests
 )
 add_executable(profile_tests
   far_away_test.cpp
+  formulation_noise_test.cpp
   rounding_profile_test.cpp
 )
 foreach(program foundation_tests profile_tests)

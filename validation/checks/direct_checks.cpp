@@ -39,7 +39,7 @@ Check judgeAccelerations(const char* check, const char* what, const std::functio
   return judgedShown(
       {check, "m/s^2", std::max(size, along), 0, size, along}, worst, units,
       {fmt::format("eps (|| T_P inv(I) || x the torque's and the platform's compliance x the forces that close the "
-                   "loops) x {:g} x the spread measured over frames and changed inputs",
+                   "loops) x {:g} x the spread measured over changed inputs",
                    rounding_safety),
        fmt::format("platform accelerations by (36) against Simbody's, {}", what), motorChanged,
        causeOfRounding(samples, worst.widest_t, Rounded::direct)});

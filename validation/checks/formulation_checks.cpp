@@ -45,9 +45,8 @@ Check judgeEngine(const std::vector<EngineSample>& samples, std::size_t k, const
   for (const EngineSample& sample : samples) torque = std::max(torque, sample.further[k]->cwiseAbs().maxCoeff());
   return judgedShown(
       {kind.check, units.efforts.unit, std::max(torque, along), 0, torque, along}, worst, units,
-      {fmt::format(
-           "eps kappa(B) kappa(legs) x || |T|' |w| || x {:g} x the spread measured over frames and changed inputs",
-           rounding_safety),
+      {fmt::format("eps kappa(B) kappa(legs) x || |T|' |w| || x {:g} x the spread measured over changed inputs",
+                   rounding_safety),
        fmt::format("torques against {}, at {} instants", kind.made_of, samples.size()), motorsOf(units),
        causeOfRounding(conditions, worst.widest_t)});
 }

@@ -63,4 +63,20 @@ std::vector<Check> judgeInvariances(const std::vector<InvarianceSamples>& invari
   return checks;
 }
 
+Check judgeEngineFrames(const std::vector<FrameDifference>& differences, const std::vector<PointwiseSample>& samples,
+                        const Units& units) {
+  static constexpr const char* check = "invariance.engines";
+  WorstShare worst;
+  for (const FrameDifference& each : differences)
+    worst.add(each.difference, each.limit, each.t, static_cast<int>(each.quantity));
+  if (!worst.any) return notMade(check, units.efforts.unit, "no instant was compared");
+  return judgedShown(
+      {check, units.efforts.unit, largestTorque(samples)}, worst, units,
+      {fmt::format("eps x the shape of each engine's torques x {:g} x its spread measured over changed inputs",
+                   rounding_safety),
+       "torques of each engine in other frames, with other labels and units, against its own in the given one",
+       [](int quantity) { return std::string(nameOfEngine(static_cast<Rounded>(quantity))); },
+       causeOfRounding(samples, worst.widest_t)});
+}
+
 }  // namespace ursula

@@ -101,6 +101,10 @@ std::vector<Check> judgeInvariances(const std::vector<InvarianceSamples>& invari
                                     const std::vector<PointwiseSample>& samples, const RoundingProfile& profile,
                                     const Units& units = {});
 
+/// `invariance.engines`: the efforts of each engine in other frames against those in the given one.
+Check judgeEngineFrames(const std::vector<FrameDifference>& differences, const std::vector<PointwiseSample>& samples,
+                        const Units& units = {});
+
 /// `reactions.pointwise` compares the joint reactions from the solver's formulation with Simbody's mobilizer and
 /// constraint reactions, at the instants of `samples`. For subjects that find reactions.
 Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::vector<PointwiseSample>& samples,

@@ -28,8 +28,8 @@ struct Quantity {
 /// The level is measured (RoundingProfile) or derived (rounding_depth).
 std::string basisOf(const Quantity& quantity, Level level) {
   return level == Level::measured
-             ? fmt::format("eps {} x {:g} x the spread measured over frames and changed inputs{}", quantity.shape,
-                           rounding_safety, quantity.further)
+             ? fmt::format("eps {} x {:g} x the spread measured over changed inputs{}", quantity.shape, rounding_safety,
+                           quantity.further)
              : fmt::format("eps {} x {:g}, what roundings add up to at most", quantity.shape, rounding_depth);
 }
 
@@ -209,7 +209,7 @@ Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::ve
       {"reactions.pointwise", "N", std::max(size, along), 0, size, along}, worst, units,
       {fmt::format(
            "eps (kappa(B)^2 kappa(legs) x || |T|' |w| || / length + largest mass x the acceleration's) x {:g} x "
-           "the spread measured over frames and changed inputs",
+           "the spread measured over changed inputs",
            rounding_safety),
        fmt::format("forces, and moments over the machine's length, at all joints against Simbody's mobilizer and "
                    "constraint reactions, at {} instants",

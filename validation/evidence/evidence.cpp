@@ -13,18 +13,6 @@
 namespace ursula {
 namespace {
 
-std::vector<EngineSample> engineSamples(const Evidence& evidence) {
-  const Scenario& scenario = *evidence.scenario;
-  const RoundingProfile& profile = evidence.reference->rounding().profile;
-  std::vector<EngineSample> out = runEngines(evidence.reference->engines(), evidence.samples, profile);
-  for (std::size_t k = 0; k < furtherEngines().size(); ++k) {
-    if (!evidence.fault.further[k]) continue;
-    const std::vector<EngineSample> faulty = runEngines(evidence.fault.further[k](scenario), evidence.samples, profile);
-    for (std::size_t i = 0; i < out.size(); ++i) out[i].further[k] = faulty[i].further[k];
-  }
-  return out;
-}
-
 /// Computes the subject's reactions if it has its own or an injected fault changes them. The reference has those of the
 /// right solver.
 void gatherReactions(Evidence& evidence) {
@@ -38,7 +26,7 @@ void gatherReactions(Evidence& evidence) {
         evidence.fault.reactions(out);
         return out;
       };
-    evidence.own_reactions = runReactions(scenario, subject, evidence.samples);
+    evidence.own_reactions = runReactions(evidence.reference->in_simbody, subject, evidence.samples);
   } else {
     evidence.reference->reactions();  // computes them now, within this stage's progress
   }
@@ -92,11 +80,11 @@ void gatherSamples(const Experiments& experiments, Evidence& out) {
   };
   const Reference& reference = *out.reference;
   out.samples = runPointwise(*out.scenario, *out.subject, reference.instants, reference.rounding().profile,
-                             reference.simbody(), reference.deadline);
+                             reference.simbody(), reference.deadline, out.fault.formulations.simbody);
   if (out.fault.sample) std::for_each(out.samples.begin(), out.samples.end(), out.fault.sample);
   if (!out.answered()) return;
   tell(0.45);
-  out.engines = engineSamples(out);
+  out.engines = runEngines(reference.engines(), out.samples, reference.rounding().profile);
   tell(0.7);
   out.invariances = runInvariances(*out.scenario, *out.subject, out.samples);
   out.complement = runComplement(*out.scenario->manipulator, *out.subject, out.samples);

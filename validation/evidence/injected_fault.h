@@ -3,9 +3,9 @@
 #include <functional>
 #include <memory>
 
-#include "validation/limits/further_engines.h"
 #include "model/joint_variables.h"
 #include "model/scenario.h"
+#include "validation/limits/formulation_faults.h"
 #include "validation/replay/replay.h"
 #include "validation/samples/pointwise.h"
 
@@ -19,12 +19,11 @@ struct WitnessFault {
 /// Falsifies an experiment for negative controls, but neither the subject nor the scenario. Empty members change
 /// nothing. All of them see the scenario in its natural units.
 struct InjectedFault {
-  /// A changed scenario for one part of the validation.
   using ScenarioChange = std::function<Scenario(const Scenario&)>;
   using Settings = std::function<void(ReplaySettings&)>;
 
   std::shared_ptr<const WitnessFault> witness;   ///< in what a part asks
-  OfFurtherEngines<ScenarioChange> further;      ///< the machine that each further formulation uses
+  FormulationFaults formulations;                ///< in the engines and the NOC, also where rounding is measured
   ScenarioChange feedback;                       ///< the machine in the loop of the stabilised replay
   std::function<void(PointwiseSample&)> sample;  ///< changes the measurement at one instant
   std::function<void(Reactions&)> reactions;     ///< changes the reactions from the solver's formulation

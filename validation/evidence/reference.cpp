@@ -52,15 +52,15 @@ PreparedScenario::PreparedScenario(const Scenario& given)
       scenario(natural.of(given)),
       instants(equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples)) {}
 
-RoundingAlong::RoundingAlong(const PreparedScenario& of, const Deadline& deadline)
-    : profile(of.scenario, profileInstants(of.scenario.simulation.samples), deadline),
+RoundingAlong::RoundingAlong(const PreparedScenario& of, const Deadline& deadline, const FormulationFaults& faults)
+    : profile(of.scenario, profileInstants(of.scenario.simulation.samples), deadline, faults),
       conditions(conditionsAt(of.scenario, of.instants, profile, deadline)),
       denser(conditionsAt(of.scenario, denserInstants(of, conditions, profile.sizes()), profile, deadline)),
       position_scale(positionScale(along())),
       forces(loopForces(along())) {}
 
-Reference::Reference(const Scenario& given, int threads, const Deadline& whole)
-    : PreparedScenario(given), deadline(whole.part()) {
+Reference::Reference(const Scenario& given, int threads, const Deadline& whole, const FormulationFaults& of)
+    : PreparedScenario(given), deadline(whole.part()), faults(of), in_simbody(of.simbody.of(scenario)) {
   background_.start(threads - 1,
                     {[this] { orders(); }, [this] { simbody(); }, [this] { engines(); }});  // longest first
   rounding();
@@ -104,7 +104,7 @@ RightReplays Reference::rightReplays() const {
 }
 
 const RoundingAlong& Reference::rounding() const {
-  return rounding_.get([this] { return RoundingAlong(*this, deadline); });
+  return rounding_.get([this] { return RoundingAlong(*this, deadline, faults); });
 }
 
 const RightReplays& Reference::replays() const {
@@ -130,21 +130,21 @@ const IntegrationError& Reference::closer(std::size_t window) const {
 }
 
 const std::vector<SimbodyAnswer>& Reference::simbody() const {
-  return simbody_.get([this] { return simbodyAnswers(scenario, instants, deadline); });
+  return simbody_.get([this] { return simbodyAnswers(scenario, instants, deadline, faults.simbody); });
 }
 
 const std::vector<EngineTorques>& Reference::engines() const {
-  return engines_.get([this] { return engineTorques(scenario, instants, deadline); });
+  return engines_.get([this] { return engineTorques(scenario, instants, deadline, faults.further); });
 }
 
 const std::vector<ReactionSample>& Reference::reactions() const {
   return reactions_.get([this] {
-    return runReactions(scenario, nocSubject(*scenario.manipulator, scenario.load), rounding().conditions);
+    return runReactions(in_simbody, nocSubject(*scenario.manipulator, scenario.load), rounding().conditions);
   });
 }
 
 const std::vector<DirectSample>& Reference::direct() const {
-  return direct_.get([this] { return runDirect(scenario, rounding().conditions, simbody()); });
+  return direct_.get([this] { return runDirect(in_simbody, rounding().conditions, simbody()); });
 }
 
 const Ladder& Reference::ladder() const {

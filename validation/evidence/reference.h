@@ -62,7 +62,7 @@ struct RoundingAlong {
   double position_scale = 0;
   LoopForces forces;
 
-  RoundingAlong(const PreparedScenario& of, const Deadline& deadline);
+  RoundingAlong(const PreparedScenario& of, const Deadline& deadline, const FormulationFaults& faults);
   /// Along the whole motion, for what is between the instants.
   const std::vector<Conditions>& along() const { return denser.empty() ? conditions : denser; }
 };
@@ -74,7 +74,9 @@ class Reference : public PreparedScenario {
  public:
   /// Uses that many threads, which changes no number. Throws like validate(). After the deadline, this or a request for
   /// a missing part throws OutOfTime.
-  explicit Reference(const Scenario& given, int threads = 1, const Deadline& deadline = {});
+  /// `faults` falsify it for negative controls.
+  explicit Reference(const Scenario& given, int threads = 1, const Deadline& deadline = {},
+                     const FormulationFaults& faults = {});
   /// Ends what is under way, because nobody needs it any more.
   ~Reference();
   Reference(const Reference&) = delete;
@@ -84,6 +86,8 @@ class Reference : public PreparedScenario {
   void prepare(bool direct_dynamics, bool ladder) const;
 
   const Deadline deadline;  ///< of every experiment on the scenario
+  const FormulationFaults faults;
+  const Scenario in_simbody;  ///< with the machine of Simbody's loop at the samples
 
   /// Stops the background threads and removes the deadline.
   void stop() const;

@@ -11,12 +11,13 @@
 #include "base/deadline.h"
 #include "base/start_threads.h"
 #include "validation/verdict/worst_share.h"
+#include "validation/limits/moved_inputs.h"
 
 namespace ursula {
 namespace {
 
-/// Additional changes of frame; each costs a whole replay.
-constexpr unsigned frame_changes = 3;
+/// Changes of the machine's numbers by one rounding; each costs a whole replay.
+constexpr unsigned moves = 3;
 
 /// The window whose replay reached its end with the largest error.
 const WindowedReplay* worstWindow(const std::vector<WindowedReplay>& windows) {
@@ -43,39 +44,32 @@ std::vector<double> drawnInstants(const WindowedReplay& window) {
 /// Errors of P at the plotted instants, and at last at a replay's own end; in m and B.
 using Track = std::vector<Vector3d>;
 
-Track trackOf(const Replay& replay, const std::vector<double>& instants, const FrameChange& from = {}) {
+Track trackOf(const Replay& replay, const std::vector<double>& instants) {
   const Vector3d none = Vector3d::Constant(std::nan(""));
   Track out;
   for (const double t : instants) {
-    const double there = t / from.units.time;
-    const bool reached = !replay.steps.empty() && there <= replay.steps.back().t * (1 + 1e-12);
-    out.push_back(reached ? interpolated(replay, there).position_error : none);
+    const bool reached = !replay.steps.empty() && t <= replay.steps.back().t * (1 + 1e-12);
+    out.push_back(reached ? interpolated(replay, t).position_error : none);
   }
   out.push_back(replay.steps.empty() ? none : replay.steps.back().position_error);
-  for (Vector3d& error : out) error = from.turn.transpose() * Vector3d(error) * from.units.length;
   return out;
 }
 
-/// The window's replay in `frame_change`, with the gaps projected away.
-Track projected(const Scenario& scenario, const ReplayPlan& plan, const WindowedReplay& window,
-                const FrameChange& frame_change, std::mutex& asking) {
-  const Scenario there = frame_change.of(scenario);
-  const Units& units = frame_change.units;
+/// The window's replay with the gaps projected away.
+Track projected(const Scenario& scenario, const ReplayPlan& plan, const WindowedReplay& window, std::mutex& asking) {
   ReplaySettings settings = settingsOf(scenario, plan, window.window, 1);
-  settings.start /= units.time;
-  settings.end = window.replay.steps.back().t / units.time;
+  settings.end = window.replay.steps.back().t;
   settings.project = true;
   const SimbodyLoop::TorqueHistory torques = [&](double t) {
     const std::lock_guard<std::mutex> one_at_a_time(asking);  // the subject may not allow concurrent calls
-    return frame_change.of(plan.torques(t * units.time));
+    return plan.torques(t);
   };
   if (plan.foresee)
-    settings.foresee = [&](std::vector<double> instants) {
+    settings.foresee = [&](const std::vector<double>& instants) {
       const std::lock_guard<std::mutex> one_at_a_time(asking);
-      for (double& t : instants) t *= units.time;
       plan.foresee(instants);
     };
-  return trackOf(replay(there, torques, settings), drawnInstants(window), frame_change);
+  return trackOf(replay(scenario, torques, settings), drawnInstants(window));
 }
 
 /// The torques' errors at the samples as accelerations of the platform, [p̈; L ω̇], linear between the samples.
@@ -124,17 +118,17 @@ Track coarse(const Scenario& scenario, const ReplayPlan& plan, const WindowedRep
   return trackOf(replay(scenario, plan.torques, settings), drawnInstants(window));
 }
 
-/// The replays behind the contributions: the judged one, the projected ones (as judged, then in other changes of
-/// frame), and one with a coarser tolerance.
+/// The replays behind the contributions: the judged one, the projected ones (as judged, then with changed inputs), and
+/// one with a coarser tolerance.
 struct Tracks {
   Track judged;
   std::vector<Track> projected;
   Track coarse;
 
-  /// Over the other changes of frame.
+  /// Over the changes of the inputs.
   Vector3d mean(std::size_t k) const {
     Vector3d out = Vector3d::Zero();
-    for (std::size_t i = 1; i < projected.size(); ++i) out += projected[i][k] / frame_changes;
+    for (std::size_t i = 1; i < projected.size(); ++i) out += projected[i][k] / moves;
     return out;
   }
 
@@ -186,14 +180,11 @@ std::array<std::vector<double>, 8> curveOf(const Tracks& tracks, const std::vect
 ErrorBudget attributed(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
                        const WindowedReplay& window, const Amplification& amplification, const ReplayPlan& plan,
                        int threads) {
-  std::vector<FrameChange> from = {FrameChange(*scenario.manipulator)};
-  for (unsigned k = 0; k < frame_changes; ++k)
-    from.push_back(randomFrameChange(k + 101, amplification.length(), *scenario.manipulator));
   std::mutex asking;
-  std::vector<Track> seen(from.size());
-  inParallel(threads, static_cast<int>(from.size()), [&](int k) {
-    const auto index = static_cast<std::size_t>(k);
-    seen[index] = projected(scenario, plan, window, from[index], asking);
+  std::vector<Track> seen(1 + moves);
+  inParallel(threads, 1 + static_cast<int>(moves), [&](int k) {
+    const auto seed = static_cast<unsigned>(k);
+    seen[seed] = projected(k == 0 ? scenario : moved(scenario, seed), plan, window, asking);
   });
   const std::vector<double> instants = drawnInstants(window);
   const Tracks tracks{trackOf(window.replay, instants), seen, coarse(scenario, plan, window)};

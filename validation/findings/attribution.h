@@ -20,7 +20,7 @@ struct ErrorShare {
 
 /// The sources of the replay's error, at the window end with the largest error. The contributions are differences
 /// between successive replays:
-///   the judged replay → the same with the loops' gaps projected away → the mean over other changes of frame →
+///   the judged replay → the same with the loops' gaps projected away → the mean over inputs changed by one rounding →
 ///   an exact integration → the torques without their pointwise errors → the commanded path.
 /// They add up to the observed error except for the unexplained part.
 struct ErrorBudget {
@@ -29,7 +29,7 @@ struct ErrorBudget {
   ErrorShare model;           ///< pointwise errors of the acceleration, propagated by the variational equations
   double model_rounding = 0;  ///< m; rounding of the residuals, propagated likewise
   ErrorShare integration;     ///< from the change with a hundredfold tolerance
-  ErrorShare rounding;        ///< from the change in turned, relabelled and rescaled frames
+  ErrorShare rounding;        ///< from the change of inputs by one rounding
   ErrorShare closure;         ///< from the change when the gaps are projected away
   double amplification = 0;   ///< growth of a deviation at the window's start; not an error itself
   ErrorSource dominant = ErrorSource::unexplained;

@@ -248,7 +248,8 @@ double Conditioning::size(Rounded quantity) const {
 double Conditioning::rounding(Rounded quantity) const {
   if (solvesWithI(quantity) && !hasDigitsOfI()) return std::numeric_limits<double>::infinity();
   const auto q = static_cast<std::size_t>(quantity);
-  return std::max(floors[q], shape(quantity) * levels[q]);  // in this order the floor also wins over 0 times infinity
+  return std::isfinite(levels[q]) ? std::max(floors[q], shape(quantity) * levels[q])
+                                  : std::numeric_limits<double>::infinity();
 }
 
 double Conditioning::complementRounding() const { return rounding_depth * eps * kappa_B * kappa_legs; }
@@ -293,7 +294,28 @@ Conditioning ConditioningProbe::at(const Motion<double>& motion) {
   return out;
 }
 
+namespace {
+
+/// Who is too noisy for a level, in words; empty for nobody. A quantity's noise enters others, too.
+std::string causeOfNoise(const Conditioning& at) {
+  for (std::size_t q = 0; q < rounded_count; ++q)
+    if (at.noisy[q] != Noisy::nobody)
+      return fmt::format(
+          "{} is noisy: its answers to inputs changed by one rounding differ by more than {:g} times "
+          "their conditioning, which no rounding explains",
+          at.noisy[q] == Noisy::solver ? "this program's NOC" : nameOfEngine(static_cast<Rounded>(q)), most_spread);
+  return "";
+}
+
+}  // namespace
+
+const char* nameOfEngine(Rounded quantity) {
+  const auto first = static_cast<std::size_t>(Rounded::further_engine), q = static_cast<std::size_t>(quantity);
+  return q < first ? "Simbody, free platform" : furtherEngines()[q - first].name;
+}
+
 std::string causeOfRounding(const Conditioning& at, Rounded quantity) {
+  if (std::string noise = causeOfNoise(at); !noise.empty()) return noise;
   if (solvesWithI(quantity) && !at.hasDigitsOfI())
     return fmt::format("rounding leaves the inertia I of (34) no digit, kappa(I) = {:.2g}", at.kappa_I);
   const double platform = at.compliance * at.largest_mass, link = at.leg_compliance * at.largest_mass;

@@ -17,6 +17,11 @@ namespace ursula {
 /// Higham and Mary, SIAM J. Sci. Comput. 41 (2019) A2815, theorem 2.4. It applies if nothing was measured.
 constexpr double rounding_depth = 25;
 
+/// The largest spread of one component that rounding explains, in units of a shape, if inputs differ by one rounding.
+/// Each of the 38 links then has two roundings: its own, and that of the input that enters there. So n = 76, and
+/// λ√n = 34.9 with λ = 4, rounded up.
+constexpr double most_spread = 35;
+
 /// The quantities with rounding errors; each pointwise limit belongs to one of these.
 enum class Rounded {
   angles,          ///< joint angles, rad
@@ -47,6 +52,11 @@ constexpr Rounded ofFurtherEngine(std::size_t k) {
   return static_cast<Rounded>(static_cast<std::size_t>(Rounded::further_engine) + k);
 }
 
+/// Whether the quantity is an engine's effort, or its acceleration as efforts.
+constexpr bool isEffortOfEngine(Rounded quantity) {
+  return quantity == Rounded::torque || quantity == Rounded::effort || quantity >= Rounded::further_engine;
+}
+
 /// Whether the quantity needs a solution with I of (34), as direct dynamics does.
 constexpr bool solvesWithI(Rounded quantity) {
   return quantity == Rounded::direct || quantity == Rounded::solver_direct;
@@ -60,6 +70,9 @@ constexpr RoundingLevels uniformLevels(double level) {
   for (double& each : levels) each = level;
   return levels;
 }
+
+/// Whose answers spread more than rounding explains.
+enum class Noisy : unsigned char { nobody, solver, engine };
 
 /// The size of a twist or its rate, [angular; linear], with rotations times `length`.
 inline double twistSize(const Vector6d& v, double length) { return v.tail<3>().norm() + length * v.head<3>().norm(); }
@@ -92,6 +105,7 @@ struct Conditioning {
   double platform_rate = 0;  ///< size of the platform's acceleration, m/s²
   RoundingLevels levels = uniformLevels(rounding_depth);
   RoundingLevels floors = uniformLevels(0);  ///< the least limits: one rounding of the motion's own sizes (MotionSizes)
+  std::array<Noisy, rounded_count> noisy{};  ///< the level of such a quantity is infinite
 
   /// Whether I of (34) keeps a correct digit: Higham, Accuracy and Stability of Numerical Algorithms (2002), p. 198.
   bool hasDigitsOfI() const { return rounding_depth * std::numeric_limits<double>::epsilon() * kappa_I < 1; }
@@ -99,7 +113,8 @@ struct Conditioning {
   double shape(Rounded quantity) const;
   /// The size of `quantity` itself.
   double size(Rounded quantity) const;
-  /// The bound of its rounding: shape × level, at least the floor. Infinite if I has no digit and `quantity` needs it.
+  /// The bound of its rounding: shape × level, at least the floor. Infinite without a level, or if I has no digit and
+  /// `quantity` needs it.
   double rounding(Rounded quantity) const;
 
   /// The rounding of ‖D T‖ over ‖D‖‖T‖; it is derived, not measured.
@@ -122,6 +137,9 @@ class ConditioningProbe {
   Noc<double> solver_;
   NocWorkspace<double> work_;
 };
+
+/// Returns the engine that the quantity compares with, as in the odd one out: "Simbody, free platform", "MuJoCo".
+const char* nameOfEngine(Rounded quantity);
 
 /// Returns what makes the limit of `quantity` large here, with the number.
 std::string causeOfRounding(const Conditioning& at, Rounded quantity = Rounded::torque);

@@ -6,9 +6,12 @@
 namespace ursula {
 
 struct EngineFrameChange::Engines {
-  Engines(const Manipulator& machine, const std::shared_ptr<const Load>& load)
-      : ball_per_leg(machine, SimbodyLoop::Topology::ball_per_leg, load), further(makeFurtherEngines(machine, load)) {}
+  Engines(const Manipulator& machine, const std::shared_ptr<const Load>& load, const FormulationFaults& faults)
+      : fault(faults.simbody),
+        ball_per_leg(fault.of(machine), SimbodyLoop::Topology::ball_per_leg, load),
+        further(makeFurtherEngines(machine, load, faults.further)) {}
 
+  EngineFault fault;
   SimbodyLoop ball_per_leg;
   OfFurtherEngines<std::unique_ptr<Engine>> further;
 };
@@ -25,9 +28,11 @@ Vector6d twistRateBack(const FrameChange& p, const Motion<double>& motion) {
 
 }  // namespace
 
-EngineFrameChange::EngineFrameChange(const Scenario& scenario, const FrameChange& frame_change)
+EngineFrameChange::EngineFrameChange(const Scenario& scenario, const FrameChange& frame_change,
+                                     const FormulationFaults& faults)
     : frame_change_(frame_change),
-      engines_(std::make_unique<Engines>(frame_change.of(*scenario.manipulator), frame_change.of(scenario.load))) {}
+      engines_(
+          std::make_unique<Engines>(frame_change.of(*scenario.manipulator), frame_change.of(scenario.load), faults)) {}
 EngineFrameChange::~EngineFrameChange() = default;
 EngineFrameChange::EngineFrameChange(EngineFrameChange&&) noexcept = default;
 
@@ -38,7 +43,7 @@ EngineView EngineFrameChange::at(const Motion<double>& motion, const Vector6d& t
   EngineView out;
   out.joints = p.back(e.ball_per_leg.place(there));
   out.bodies = p.back(e.ball_per_leg.bodies());
-  out.torques = p.torquesBack(e.ball_per_leg.inverseDynamics());
+  out.torques = p.torquesBack(e.fault.of(e.ball_per_leg.inverseDynamics()));
   e.ball_per_leg.accelerate(p.of(torques));
   out.acceleration = twistRateBack(p, e.ball_per_leg.platform());
   out.gap_acceleration = e.ball_per_leg.gapAcceleration() * p.units.acceleration();

@@ -6,6 +6,7 @@
 #include "validation/limits/further_engines.h"
 #include "model/joint_variables.h"
 #include "model/scenario.h"
+#include "validation/limits/formulation_faults.h"
 #include "validation/subject/frame_change.h"
 
 namespace ursula {
@@ -25,7 +26,7 @@ struct EngineView {
 /// All engines on one scenario in one change of frame, without the solver.
 class EngineFrameChange {
  public:
-  EngineFrameChange(const Scenario& scenario, const FrameChange& frame_change);
+  EngineFrameChange(const Scenario& scenario, const FrameChange& frame_change, const FormulationFaults& faults = {});
   ~EngineFrameChange();
   EngineFrameChange(EngineFrameChange&&) noexcept;
 

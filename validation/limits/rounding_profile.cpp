@@ -1,6 +1,5 @@
 #include "validation/limits/rounding_profile.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,127 +7,18 @@
 
 #include "nocsolver/noc/noc.h"
 #include "validation/limits/engine_view.h"
+#include "validation/limits/moved_inputs.h"
 #include "validation/limits/solver_rounding.h"
+#include "validation/limits/spreads.h"
 #include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
 
-/// Changes of frame beside the given one.
-constexpr unsigned frame_changes = 3;
+/// Changes of the engines' inputs, and of their frame.
+constexpr unsigned engine_moves = 3, frame_changes = 3;
 /// Number of instants on either side whose spread counts.
 constexpr std::size_t neighbours = 2;
-
-/// The largest difference of ψ, θ and d. φ depends on the frame, so the axis x of the leg's plane is compared.
-double angleDistance(const Manipulator& machine, const JointVariables<double>& a, const JointVariables<double>& b,
-                     const BodyMotions<double>& of_a, const BodyMotions<double>& of_b, double length) {
-  double largest = 0;
-  for (int i = 0; i < machine.legCount(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const bool carriage = rowOf(machine.leg(i).kind).hasCarriage();
-    // The plane of a leg with a carriage is its rod's; its ψ starts at an axis that does not turn with the frame.
-    const std::size_t in_plane = carriage ? leg_count + k : k;
-    const double plane = (of_a[in_plane].R.col(0) - of_b[in_plane].R.col(0)).norm();
-    const auto turn = [](double x, double y) { return std::abs(std::remainder(x - y, 2 * pi)); };
-    largest = larger(largest, plane);
-    if (!carriage) largest = larger(largest, turn(a.psi(i), b.psi(i)));
-    largest = larger(largest, turn(a.theta(i), b.theta(i)));
-    largest = larger(largest, std::abs(a.d(i) - b.d(i)) / length);
-  }
-  return largest;
-}
-
-/// The largest difference of a force, or of a moment over `length`, N.
-double reactionDistance(const Reactions& a, const Reactions& b, double length) {
-  double largest = 0;
-  for (std::size_t i = 0; i < leg_count; ++i) largest = larger(largest, distance(a[i], b[i], length));
-  return largest;
-}
-
-double torqueDistance(const Vector6d& a, const Vector6d& b) {
-  return (a - b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-}
-
-void raise(RoundingLevels& levels, Rounded quantity, double value) {
-  double& level = levels[static_cast<std::size_t>(quantity)];
-  level = larger(level, value);
-}
-
-/// Compares joints and bodies, which the solver and the engines both have.
-template <class View>
-void spreadOfMotions(const Manipulator& machine, const View& a, const View& b, double length, RoundingLevels& out) {
-  for (std::size_t i = 0; i < body_count; ++i) {
-    // A carriage's frame depends on the vertical, not on the machine.
-    const bool is_carriage =
-        i < static_cast<std::size_t>(machine.legCount()) && rowOf(machine.leg(static_cast<int>(i)).kind).hasCarriage();
-    const double turn = is_carriage ? 0 : length;
-    const BodyMotion<double>&x = a.bodies[i], &y = b.bodies[i];
-    raise(out, Rounded::positions, (x.c - y.c).norm() + turn * (x.R - y.R).norm());
-    raise(out, Rounded::twists, twistSize(x.twist - y.twist, length));
-    raise(out, Rounded::twist_rates, twistSize(x.twist_rate - y.twist_rate, length));
-  }
-  raise(out, Rounded::angles, angleDistance(machine, a.joints.q, b.joints.q, a.bodies, b.bodies, length));
-  raise(out, Rounded::rates, jointDistance(a.joints.q_dot, b.joints.q_dot, length));
-  raise(out, Rounded::accelerations, jointDistance(a.joints.q_ddot, b.joints.q_ddot, length));
-  raise(out, Rounded::reactions, reactionDistance(a.reactions, b.reactions, length));
-  raise(out, Rounded::direct, twistSize(a.direct - b.direct, length));
-}
-
-/// Rates and accelerations of the driven coordinates.
-struct DrivenMotion {
-  Vector6d q_dot, q_ddot;
-};
-
-/// The spread of the NOC in one frame. `driven` is Simbody's; `to_efforts` is T_PᵀM_P: efforts per acceleration of the
-/// platform. An engine's level also contains the solver's spread.
-RoundingLevels spreadOfSolver(const Manipulator& machine, const std::vector<SolverView>& views,
-                              const DrivenMotion& driven, const Matrix6d& to_efforts, double length) {
-  const Eigen::PartialPivLU<Matrix6d> to_efforts_lu(to_efforts);
-  RoundingLevels out = uniformLevels(0);
-  const auto size = [length](const Matrix6d& T) { return T.bottomRows<3>().norm() + length * T.topRows<3>().norm(); };
-  for (std::size_t i = 0; i < views.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const SolverView &a = views[i], &b = views[j];
-      spreadOfMotions(machine, a, b, length, out);
-      const Matrix6d T = a.T - b.T, T_rate = a.T_rate - b.T_rate;
-      raise(out, Rounded::shaping, size(T));
-      raise(out, Rounded::shaping_rate, size(T_rate));
-      raise(out, Rounded::jacobian, twistSize(T * driven.q_dot, length));
-      raise(out, Rounded::jacobian_rate, twistSize(T * driven.q_ddot + T_rate * driven.q_dot, length));
-      const double torque = torqueDistance(a.torques, b.torques);
-      raise(out, Rounded::effort, (a.torques - b.torques).norm());
-      raise(out, Rounded::acceleration, twistSize(to_efforts_lu.solve(a.torques - b.torques), length));
-      raise(out, Rounded::solver, torque);
-      raise(out, Rounded::solver_direct, twistSize(a.direct - b.direct, length));
-      raise(out, Rounded::torque, torque);
-      for (std::size_t k = 0; k < furtherEngines().size(); ++k) raise(out, ofFurtherEngine(k), torque);
-    }
-  return out;
-}
-
-/// The engines' spread over changes of frame. `solver` is the NOC in the given one, `to_efforts` is T_PᵀM_P.
-RoundingLevels spreadOfEngines(const Manipulator& machine, const std::vector<EngineView>& views,
-                               const SolverView& solver, const Matrix6d& to_efforts, double length) {
-  RoundingLevels out = uniformLevels(0);
-  const Motors motors = machine.motors();
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    raise(out, Rounded::gaps, views[i].gap_acceleration);
-    for (std::size_t j = 0; j < i; ++j) {
-      const EngineView &a = views[i], &b = views[j];
-      spreadOfMotions(machine, a, b, length, out);
-      const Vector6d q_dot = a.joints.q_dot.driven(motors) - b.joints.q_dot.driven(motors);
-      const Vector6d q_ddot = a.joints.q_ddot.driven(motors) - b.joints.q_ddot.driven(motors);
-      raise(out, Rounded::jacobian, twistSize(solver.T * q_dot, length));
-      raise(out, Rounded::jacobian_rate, twistSize(solver.T * q_ddot + solver.T_rate * q_dot, length));
-      raise(out, Rounded::torque, torqueDistance(a.torques, b.torques));
-      for (std::size_t k = 0; k < furtherEngines().size(); ++k)
-        if (a.further[k] && b.further[k]) raise(out, ofFurtherEngine(k), torqueDistance(*a.further[k], *b.further[k]));
-      raise(out, Rounded::acceleration, twistSize(a.acceleration - b.acceleration, length));
-      raise(out, Rounded::effort, (to_efforts * (a.acceleration - b.acceleration)).norm());
-    }
-  }
-  return out;
-}
 
 /// Divides by the shape, or by the floor if that is larger; infinite if there is a spread without either.
 void divideByShape(const Conditioning& at, RoundingLevels& spread) {
@@ -138,12 +28,30 @@ void divideByShape(const Conditioning& at, RoundingLevels& spread) {
   }
 }
 
-/// The least level: rounding_floor, or less where condition numbers alone would exceed floor_share. `well_conditioned`
-/// is the same machine without condition numbers.
-double floorOf(const Conditioning& at, const Conditioning& well_conditioned, Rounded quantity) {
+/// The least level: rounding_floor, or less where condition numbers alone would exceed floor_share.
+double floorOf(const Conditioning& at, Rounded quantity) {
+  Conditioning well_conditioned = at;
+  well_conditioned.kappa_B = well_conditioned.kappa_legs = 1;
   const double share = floor_share / std::numeric_limits<double>::epsilon();
   const double shape = at.shape(quantity);
   return shape > 0 ? std::min(rounding_floor, share * well_conditioned.shape(quantity) / shape) : rounding_floor;
+}
+
+/// The length of the shortest link that has a direction of its own, m.
+double shortestLink(const Manipulator& machine) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Leg& leg : machine.parameters().legs) {
+    const bool turns = !rowOf(leg.kind).hasCarriage() && !rowOf(leg.kind).isTelescopic();
+    shortest = std::min(shortest, turns ? std::min(leg.proximal.length, leg.distal.length) : leg.distal.length);
+  }
+  return shortest;
+}
+
+/// The largest spread of `quantity` that rounding explains, in units of its shape. Its size adds at most two norms of
+/// 18 components, as for T. A link's motion loses what its ends lose over its length; the shape has the machine's.
+double mostSpread(const Conditioning& at, double shortest_link, Rounded quantity) {
+  const bool of_links = quantity <= Rounded::twist_rates;
+  return 2 * std::sqrt(18.0) * most_spread * (of_links ? std::max(1.0, at.length / shortest_link) : 1);
 }
 
 /// Moves P by a billionth of `length`, differently for each k: nearly the same pose with other roundings.
@@ -163,11 +71,17 @@ Vector6d otherTorques(const Vector6d& torques) {
 int profileInstants(int samples) { return std::clamp(samples, 21, instants_along); }
 
 struct RoundingProfile::Workspace {
-  explicit Workspace(const Scenario& scenario)
-      : machine(*scenario.manipulator), noc(machine), solver(machine, scenario.load), probe(machine, scenario.load) {
-    engines.emplace_back(scenario, FrameChange(machine));
+  Workspace(const Scenario& scenario, const FormulationFaults& faults)
+      : machine(*scenario.manipulator),
+        noc(machine),
+        solver(machine, scenario.load, faults.solver),
+        probe(machine, scenario.load),
+        shortest_link(shortestLink(machine)) {
+    engines.emplace_back(scenario, FrameChange(machine), faults);
+    for (unsigned k = 0; k < engine_moves; ++k)
+      engines.emplace_back(moved(scenario, k + 1), FrameChange(machine), faults);
     for (unsigned k = 0; k < frame_changes; ++k)
-      engines.emplace_back(scenario, randomFrameChange(k + 1, noc.machine().length, machine));
+      elsewhere.emplace_back(scenario, randomFrameChange(k + 1, noc.machine().length, machine), faults);
   }
 
   std::mutex guard;
@@ -176,11 +90,14 @@ struct RoundingProfile::Workspace {
   NocWorkspace<double> work;
   SolverRounding solver;
   ConditioningProbe probe;
-  std::vector<EngineFrameChange> engines;
+  double shortest_link;
+  std::vector<EngineFrameChange> engines;    ///< with the given numbers, then with changed ones
+  std::vector<EngineFrameChange> elsewhere;  ///< in other changes of frame
 };
 
-RoundingProfile::RoundingProfile(const Scenario& scenario, int instants, const Deadline& deadline)
-    : sizes_(scenario, deadline), workspace_(std::make_unique<Workspace>(scenario)) {
+RoundingProfile::RoundingProfile(const Scenario& scenario, int instants, const Deadline& deadline,
+                                 const FormulationFaults& faults)
+    : sizes_(scenario, deadline), workspace_(std::make_unique<Workspace>(scenario, faults)) {
   Motion<double> last_distinct;
   for (int k = 0; k < instants; ++k) {
     deadline.require();
@@ -190,13 +107,19 @@ RoundingProfile::RoundingProfile(const Scenario& scenario, int instants, const D
       nudge(motion, k, workspace_->noc.machine().length);  // without this a held pose would repeat one measurement
     else
       last_distinct = motion;
-    measured_.push_back(measure(motion, nullptr));
+    std::vector<std::size_t> frames;  // one in turn, or several if there are fewer instants
+    for (auto j = static_cast<std::size_t>(k) % frame_changes; j < frame_changes;
+         j += static_cast<std::size_t>(instants))
+      frames.push_back(j);
+    motions_.push_back(motion);
+    measured_.push_back(measure(motion, nullptr, frames));
   }
 }
 
 RoundingProfile::~RoundingProfile() = default;
 
-RoundingProfile::Measured RoundingProfile::measure(const Motion<double>& motion, const Vector6d* torques) const {
+RoundingProfile::Measured RoundingProfile::measure(const Motion<double>& motion, const Vector6d* torques,
+                                                   const std::vector<std::size_t>& frames) const {
   Workspace& w = *workspace_;
   const std::lock_guard<std::mutex> lock(w.guard);
   Measured here;
@@ -206,19 +129,34 @@ RoundingProfile::Measured RoundingProfile::measure(const Motion<double>& motion,
   const Vector6d commanded = w.solver.torques(motion), others = torques != nullptr ? *torques : otherTorques(commanded);
   const std::vector<SolverView> solver = w.solver.at(motion, others);
   std::vector<EngineView> engines;
-  for (EngineFrameChange& each : w.engines) engines.push_back(each.at(motion, commanded, others));
+  for (std::size_t k = 0; k < w.engines.size(); ++k)
+    engines.push_back(w.engines[k].at(k == 0 ? motion : moved(motion, static_cast<unsigned>(k)), commanded, others));
   w.noc.displacements(motion, w.work);
   const Matrix6d to_efforts = solver.front().T.transpose() * w.noc.massMatrixAtP(motion, w.work);
   const JointMotion& simbody = engines.front().joints;
   const Motors motors = w.machine.motors();
   const DrivenMotion driven = {simbody.q_dot.driven(motors), simbody.q_ddot.driven(motors)};
-  here.spread = spreadOfSolver(w.machine, solver, driven, to_efforts, conditioning.length);
-  const RoundingLevels of_engines =
-      spreadOfEngines(w.machine, engines, solver.front(), to_efforts, conditioning.length);
-  // A limit covers the difference of both sides, so their spreads add.
-  for (std::size_t q = 0; q < rounded_count; ++q) here.spread[q] += of_engines[q];
-  divideByShape(conditioning, here.spread);
+  here.solver = spreadOfSolver(w.machine, solver, driven, to_efforts, conditioning.length);
+  const auto apart = [&](const std::vector<EngineView>& views) {
+    return spreadOfEngines(w.machine, views, solver.front(), to_efforts, conditioning.length);
+  };
+  here.engines = apart(engines);
+  for (const std::size_t k : frames) {
+    const RoundingLevels here_and_there = apart({engines.front(), w.elsewhere[k].at(motion, commanded, others)});
+    for (std::size_t q = 0; q < rounded_count; ++q)
+      here.across_frames[q] = larger(here.across_frames[q], here_and_there[q]);
+  }
+  for (RoundingLevels* each : {&here.solver, &here.engines, &here.across_frames}) divideByShape(conditioning, *each);
   return here;
+}
+
+std::pair<std::size_t, std::size_t> RoundingProfile::nearest(double t) const {
+  const auto after = std::lower_bound(measured_.begin(), measured_.end(), t,
+                                      [](const Measured& each, double at) { return each.t < at; });
+  const auto i = static_cast<std::size_t>(after - measured_.begin());
+  const std::size_t first = i > neighbours ? i - neighbours : 0;
+  const std::size_t last = std::min(i + neighbours, measured_.size() - 1);
+  return {std::min(first, last), last};
 }
 
 Conditioning RoundingProfile::withLevels(const Motion<double>& motion, const Measured* measured_here) const {
@@ -228,25 +166,29 @@ Conditioning RoundingProfile::withLevels(const Motion<double>& motion, const Mea
     out = workspace_->probe.at(motion);
   }
   out.floors = sizes_.floors();
-  const auto after = std::lower_bound(measured_.begin(), measured_.end(), motion.t,
-                                      [](const Measured& each, double t) { return each.t < t; });
-  const auto i = static_cast<std::size_t>(after - measured_.begin());
-  const std::size_t first = i > neighbours ? i - neighbours : 0;
-  const std::size_t last = std::min(i + neighbours, measured_.size() - 1);
-  RoundingLevels spread = measured_here != nullptr ? measured_here->spread : uniformLevels(0);
-  for (std::size_t k = std::min(first, last); k <= last; ++k)
-    for (std::size_t q = 0; q < rounded_count; ++q) spread[q] = larger(spread[q], measured_[k].spread[q]);
-  Conditioning well_conditioned = out;
-  well_conditioned.kappa_B = well_conditioned.kappa_legs = 1;
-  for (std::size_t q = 0; q < rounded_count; ++q)
-    out.levels[q] = floorOf(out, well_conditioned, static_cast<Rounded>(q)) + rounding_safety * spread[q];
+  std::vector<const Measured*> about;
+  if (measured_here != nullptr) about.push_back(measured_here);
+  const auto [first, last] = nearest(motion.t);
+  for (std::size_t k = first; k <= last; ++k) about.push_back(&measured_[k]);
+  for (std::size_t q = 0; q < rounded_count; ++q) {
+    const double most = mostSpread(out, workspace_->shortest_link, static_cast<Rounded>(q));
+    double of_both = 0;
+    for (const Measured* each : about) {
+      const double solver = each->solver[q], engine = each->engines[q];
+      of_both = larger(of_both, solver + engine);  // a limit covers the difference of both sides
+      if (!(solver <= most)) out.noisy[q] = Noisy::solver;
+      if (!(engine <= most)) out.noisy[q] = Noisy::engine;
+    }
+    out.levels[q] = out.noisy[q] == Noisy::nobody ? floorOf(out, static_cast<Rounded>(q)) + rounding_safety * of_both
+                                                  : std::numeric_limits<double>::infinity();
+  }
   return out;
 }
 
 Conditioning RoundingProfile::at(const Motion<double>& motion) const { return withLevels(motion, nullptr); }
 
 Conditioning RoundingProfile::closer(const Motion<double>& motion, const Vector6d* torques) const {
-  const Measured here = measure(motion, torques);
+  const Measured here = measure(motion, torques, {});
   return withLevels(motion, &here);
 }
 
@@ -262,8 +204,39 @@ double RemeasuredLimits::limit(double error, const Conditioning& at, Rounded qua
 }
 
 std::vector<double> RoundingProfile::spreads(Rounded quantity) const {
+  const auto q = static_cast<std::size_t>(quantity);
   std::vector<double> out;
-  for (const Measured& each : measured_) out.push_back(each.spread[static_cast<std::size_t>(quantity)]);
+  for (const Measured& each : measured_) out.push_back(each.solver[q] + each.engines[q]);
+  return out;
+}
+
+double RoundingProfile::largestOfOne(Rounded quantity) const {
+  const auto q = static_cast<std::size_t>(quantity);
+  double out = 0;
+  for (std::size_t k = 0; k < measured_.size(); ++k)
+    out = larger(out, larger(measured_[k].solver[q], measured_[k].engines[q]) /
+                          mostSpread(at(motions_[k]), workspace_->shortest_link, quantity));
+  return out;
+}
+
+std::vector<FrameDifference> RoundingProfile::acrossFrames() const {
+  std::vector<FrameDifference> out;
+  for (std::size_t k = 0; k < measured_.size(); ++k) {
+    Conditioning here = at(motions_[k]);
+    const auto [first, last] = nearest(measured_[k].t);
+    for (std::size_t q = 0; q < rounded_count; ++q) {
+      const auto quantity = static_cast<Rounded>(q);
+      if (!isEffortOfEngine(quantity)) continue;
+      double spread = 0;
+      for (std::size_t i = first; i <= last; ++i) spread = larger(spread, measured_[i].engines[q]);
+      here.levels[q] = spread <= mostSpread(here, workspace_->shortest_link, quantity)
+                           ? floorOf(here, quantity) + rounding_safety * spread
+                           : std::numeric_limits<double>::infinity();
+      const double shape = std::max(here.floors[q], here.shape(quantity));  // 0 where nothing acts
+      out.push_back(
+          {measured_[k].t, quantity, shape > 0 ? measured_[k].across_frames[q] * shape : 0, here.rounding(quantity)});
+    }
+  }
   return out;
 }
 

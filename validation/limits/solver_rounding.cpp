@@ -1,11 +1,9 @@
 #include "validation/limits/solver_rounding.h"
 
-#include <cstring>
-#include <functional>
-#include <random>
 #include <utility>
 
 #include "nocsolver/noc/noc.h"
+#include "validation/limits/moved_inputs.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -14,33 +12,8 @@ namespace {
 /// Number of different changes of the inputs.
 constexpr unsigned moves = 8;
 
-/// Changes numbers by one rounding, up or down, fixed by the seed. Zeros stay zero, and numbers of equal size stay
-/// equal. Otherwise only some evaluations would take the branches for equal numbers.
-class Mover {
- public:
-  explicit Mover(unsigned seed) : seed_(seed) {}
-
-  void operator()(double& number) const {
-    std::uint64_t bits = 0;
-    const double size = std::abs(number);
-    std::memcpy(&bits, &size, sizeof bits);
-    std::minstd_rand draw(static_cast<unsigned>(std::hash<std::uint64_t>()(bits) % 1000000007U) + seed_);
-    draw.discard(2);
-    number *= 1 + ((draw() & 1U) != 0 ? 1 : -1) * Eigen::NumTraits<double>::epsilon();
-  }
-  template <class Derived>
-  void operator()(Eigen::MatrixBase<Derived>& of) const {
-    for (Eigen::Index k = 0; k < of.size(); ++k) (*this)(of(k % of.rows(), k / of.rows()));
-  }
-  void operator()(std::array<double, 3>& numbers) const {
-    for (double& number : numbers) (*this)(number);
-  }
-
- private:
-  unsigned seed_;
-};
-
-MachineParameters<double> moved(const Manipulator& manipulator, unsigned seed) {
+/// Moves the numbers that the solver has read, and so also those of axes of length one.
+MachineParameters<double> movedNumbers(const Manipulator& manipulator, unsigned seed) {
   MachineParameters<double> machine(manipulator);
   const Mover move(seed);
   for (int i = 0; i < machine.legs_in_all; ++i) {
@@ -58,17 +31,6 @@ MachineParameters<double> moved(const Manipulator& manipulator, unsigned seed) {
   return machine;
 }
 
-Motion<double> moved(Motion<double> motion, unsigned seed) {
-  const Mover move(seed);
-  for (Vector3d* vector : {&motion.p, &motion.omega, &motion.p_dot, &motion.omega_dot, &motion.p_ddot}) move(*vector);
-  for (int k = 0; k < 3; ++k) {
-    Vector3d axis = motion.Q.col(k);
-    move(axis);
-    motion.Q.col(k) = axis;
-  }
-  return motion;
-}
-
 }  // namespace
 
 struct SolverRounding::Formulations {
@@ -76,9 +38,13 @@ struct SolverRounding::Formulations {
   std::vector<Subject> moved;
 };
 
-SolverRounding::SolverRounding(const Manipulator& machine, std::shared_ptr<const Load> load)
-    : formulations_(std::make_unique<Formulations>(Formulations{nocSubject(machine, load), {}})) {
-  for (unsigned k = 0; k < moves; ++k) formulations_->moved.push_back(nocSubject(moved(machine, k + 1), load));
+SolverRounding::SolverRounding(const Manipulator& machine, std::shared_ptr<const Load> load,
+                               const std::function<Subject(const Subject&)>& fault)
+    : formulations_(std::make_unique<Formulations>()) {
+  const auto faulty = [&fault](Subject right) { return fault ? fault(right) : right; };
+  formulations_->as_they_are = faulty(nocSubject(machine, load));
+  for (unsigned k = 0; k < moves; ++k)
+    formulations_->moved.push_back(faulty(nocSubject(movedNumbers(machine, k + 1), load)));
 }
 SolverRounding::~SolverRounding() = default;
 SolverRounding::SolverRounding(SolverRounding&&) noexcept = default;

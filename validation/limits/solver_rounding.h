@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "model/load.h"
 #include "model/manipulator.h"
 #include "model/motion.h"
+#include "validation/subject/subject.h"
 
 namespace ursula {
 
@@ -23,7 +25,9 @@ struct SolverView {
 /// motion that are all changed by one rounding. A wrong formula is equally wrong in all evaluations and adds nothing.
 class SolverRounding {
  public:
-  SolverRounding(const Manipulator& machine, std::shared_ptr<const Load> load);
+  /// `fault` falsifies the NOC, for negative controls.
+  SolverRounding(const Manipulator& machine, std::shared_ptr<const Load> load,
+                 const std::function<Subject(const Subject&)>& fault = nullptr);
   ~SolverRounding();
   SolverRounding(SolverRounding&&) noexcept;
 

@@ -10,7 +10,7 @@
 namespace ursula {
 
 /// The measured integration error in one window. The right torques are replayed at the tolerance and at a hundred times
-/// it, with the coarser replay's gaps and energy. The closer look does the same with halved steps and other frames.
+/// it, with the coarser replay's gaps and energy. The closer look does the same with halved steps and changed inputs.
 /// Values are the largest up to each instant.
 struct IntegrationError {
   struct At {
@@ -38,7 +38,7 @@ struct WindowedReplay {
   GrowthWindow window;
   Replay replay;
   IntegrationError integration = {};
-  IntegrationError closer = {};  ///< change with halved steps and turned frames; empty if not requested
+  IntegrationError closer = {};  ///< change with halved steps and changed inputs; empty if not requested
   GapOpening opening = {};
   std::shared_ptr<const Replay> coarse = nullptr;  ///< the coarser replay of the measurement, under the right torques
 };

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "model/instants.h"
+#include "validation/limits/moved_inputs.h"
 #include "validation/replay/radau.h"
-#include "validation/subject/frame_change.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -132,7 +133,11 @@ double plannedErrorRate(const ReplayPlan& plan) {
 std::vector<GrowthWindow> planWindows(const Amplification& amplification, const ReplayPlan& plan) {
   const double rate = plannedErrorRate(plan);
   // Plans for a quarter of the useful limit, because the actual number of steps may exceed the planned one.
-  const double planned = useful_replay_limit / 4 * amplification.length();
+  double planned = useful_replay_limit / 4 * amplification.length();
+  // Without a limit of the accelerations no window is useful, so one is enough.
+  if (std::any_of(amplification.instants().begin(), amplification.instants().end(),
+                  [&plan](double t) { return std::isinf(plan.acceleration(t)); }))
+    planned = std::numeric_limits<double>::infinity();
   std::vector<GrowthWindow> windows;
   for (std::size_t first = 0; first + 1 < amplification.instants().size(); first = windows.back().last)
     windows.push_back(amplification.window(first, plan.acceleration, rate, planned));
@@ -175,21 +180,7 @@ void measureIntegration(const Scenario& scenario, const ReplayPlan& plan, std::v
 
 namespace {
 
-constexpr unsigned frames_of_replay = 3;
-
-/// Replays in another frame and rotates the path's errors back. Units stay, so the tolerance keeps its meaning.
-Replay replayedElsewhere(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window, unsigned seed) {
-  FrameChange there = randomFrameChange(seed, window.length, *scenario.manipulator);
-  there.units = {};
-  const Scenario seen = there.of(scenario);
-  Replay out = replay(
-      seen, [&](double t) { return there.of(plan.torques(t)); }, settingsOf(seen, plan, window, 1));
-  for (ReplayStep& step : out.steps)
-    for (Vector3d ReplayStep::*part : {&ReplayStep::position_error, &ReplayStep::rotation_error,
-                                       &ReplayStep::velocity_error, &ReplayStep::spin_error})
-      step.*part = there.turn.transpose() * (step.*part);
-  return out;
-}
+constexpr unsigned moves_of_replay = 3;
 
 /// Replays with halved steps. The difference from `here` is the steps' error, if none was rejected.
 Replay replayedByHalves(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
@@ -208,8 +199,9 @@ Replay replayedByHalves(const Scenario& scenario, const ReplayPlan& plan, const 
 IntegrationError closerLook(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
                             const Replay& here) {
   IntegrationError out = integrationError(here, replayedByHalves(scenario, plan, window, here));
-  for (unsigned seed = 1; seed <= frames_of_replay; ++seed) {
-    const IntegrationError error = integrationError(here, replayedElsewhere(scenario, plan, window, seed));
+  for (unsigned seed = 1; seed <= moves_of_replay; ++seed) {
+    const IntegrationError error =
+        integrationError(here, replay(moved(scenario, seed), plan.torques, settingsOf(scenario, plan, window, 1)));
     out.steps.resize(std::min(out.steps.size(), error.steps.size()));
     for (std::size_t k = 0; k < out.steps.size(); ++k)
       for (double IntegrationError::At::*part :

@@ -49,7 +49,7 @@ void measureIntegration(const Scenario& scenario, const ReplayPlan& plan, std::v
 constexpr double coarser = 100;
 
 /// The effect of steps and rounding on a replay of `window` under the plan's torques: the largest change of `here` at
-/// halved steps and in three other frames with other labels.
+/// halved steps and with every number of the machine changed by one rounding, three times.
 IntegrationError closerLook(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
                             const Replay& here);
 

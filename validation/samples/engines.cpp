@@ -3,8 +3,9 @@
 namespace ursula {
 
 std::vector<EngineTorques> engineTorques(const Scenario& scenario, const std::vector<double>& instants,
-                                         const Deadline& deadline) {
-  const OfFurtherEngines<std::unique_ptr<Engine>> engines = makeFurtherEngines(*scenario.manipulator, scenario.load);
+                                         const Deadline& deadline, const OfFurtherEngines<EngineFault>& faults) {
+  const OfFurtherEngines<std::unique_ptr<Engine>> engines =
+      makeFurtherEngines(*scenario.manipulator, scenario.load, faults);
   std::vector<EngineTorques> out(instants.size());
   for (std::size_t i = 0; i < instants.size(); ++i) {
     deadline.require();

@@ -24,7 +24,8 @@ struct EngineSample {
 
 /// Computes the torques of all further formulations at the instants.
 std::vector<EngineTorques> engineTorques(const Scenario& scenario, const std::vector<double>& instants,
-                                         const Deadline& deadline = {});
+                                         const Deadline& deadline = {},
+                                         const OfFurtherEngines<EngineFault>& faults = {});
 
 /// Combines the subject's torques with `engines`, which are those at the instants of `samples`.
 std::vector<EngineSample> runEngines(const std::vector<EngineTorques>& engines,

@@ -197,8 +197,9 @@ std::bitset<std::size(deviations)> beyond(const PointwiseSample& sample) {
 
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
                                           const std::vector<double>& instants, const RoundingProfile& profile,
-                                          const std::vector<SimbodyAnswer>& simbody, const Deadline& deadline) {
-  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::ball_per_leg, scenario.load);
+                                          const std::vector<SimbodyAnswer>& simbody, const Deadline& deadline,
+                                          const EngineFault& fault) {
+  SimbodyLoop loop(fault.of(*scenario.manipulator), SimbodyLoop::Topology::ball_per_leg, scenario.load);
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);
   std::vector<PointwiseSample> samples;
   samples.reserve(instants.size());

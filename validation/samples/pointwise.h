@@ -56,10 +56,11 @@ struct PointwiseSample {
 };
 
 /// Solver and Simbody at the same instants: joint state, 13 bodies, torques, accelerations. `profile` is the
-/// scenario's; `simbody` are Simbody's answers at the instants.
+/// scenario's; `simbody` are Simbody's answers at the instants, and `fault` is Simbody's.
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
                                           const std::vector<double>& instants, const RoundingProfile& profile,
-                                          const std::vector<SimbodyAnswer>& simbody, const Deadline& deadline = {});
+                                          const std::vector<SimbodyAnswer>& simbody, const Deadline& deadline = {},
+                                          const EngineFault& fault = {});
 /// The same, but it asks Simbody itself.
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
                                           const std::vector<double>& instants, const RoundingProfile& profile);

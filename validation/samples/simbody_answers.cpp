@@ -38,14 +38,15 @@ SimbodyAnswer simbodyAnswer(SimbodyLoop& loop, const Subject& right, const Motio
 }
 
 std::vector<SimbodyAnswer> simbodyAnswers(const Scenario& scenario, const std::vector<double>& instants,
-                                          const Deadline& deadline) {
-  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::ball_per_leg, scenario.load);
+                                          const Deadline& deadline, const EngineFault& fault) {
+  SimbodyLoop loop(fault.of(*scenario.manipulator), SimbodyLoop::Topology::ball_per_leg, scenario.load);
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);
   std::vector<SimbodyAnswer> out;
   out.reserve(instants.size());
   for (double t : instants) {
     deadline.require();
     out.push_back(simbodyAnswer(loop, right, scenario.trajectory->at(t)));
+    out.back().torques = fault.of(out.back().torques);
   }
   return out;
 }

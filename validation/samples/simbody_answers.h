@@ -6,6 +6,7 @@
 #include "base/deadline.h"
 #include "simbody/simbody_loop.h"
 #include "model/scenario.h"
+#include "validation/limits/formulation_faults.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -27,6 +28,6 @@ struct SimbodyAnswer {
 SimbodyAnswer simbodyAnswer(SimbodyLoop& loop, const Subject& right, const Motion<double>& motion);
 
 std::vector<SimbodyAnswer> simbodyAnswers(const Scenario& scenario, const std::vector<double>& instants,
-                                          const Deadline& deadline = {});
+                                          const Deadline& deadline = {}, const EngineFault& fault = {});
 
 }  // namespace ursula

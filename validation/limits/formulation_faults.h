@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "validation/limits/further_engines.h"
+#include "model/scenario.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+
+/// Falsifies an engine wherever it is asked, so also where its rounding is measured. Empty members change nothing.
+struct EngineFault {
+  std::function<void(ManipulatorParameters&)> machine;  ///< which it is built from, in the frame in which it is asked
+  std::function<void(Vector6d&)> efforts;               ///< its answers, by its own numbers of the motors
+
+  Manipulator of(const Manipulator& right) const;
+  /// Returns the scenario with the engine's machine.
+  Scenario of(Scenario right) const;
+  Vector6d of(Vector6d right) const;
+  explicit operator bool() const { return machine || efforts; }
+};
+
+/// Falsifies formulations for negative controls.
+struct FormulationFaults {
+  EngineFault simbody;  ///< the loop with a ball per leg, at the samples
+  OfFurtherEngines<EngineFault> further;
+  std::function<Subject(const Subject&)> solver;  ///< the NOC, where its rounding is measured
+
+  explicit operator bool() const;
+};
+
+/// makeFurtherEngines() with faults.
+OfFurtherEngines<std::unique_ptr<Engine>> makeFurtherEngines(const Manipulator& manipulator,
+                                                             const std::shared_ptr<const Load>& load,
+                                                             const OfFurtherEngines<EngineFault>& faults);
+
+}  // namespace ursula
