@@ -5,11 +5,15 @@
 #include <ursula/scenario.h>
 #include <ursula/validate.h>
 
+#include <algorithm>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -82,6 +86,13 @@ class Archive {
   bool reads_ = false;
 };
 
+/// The hash of an archive of a T, which finds damage. A damaged archive could hold any number of rows or any
+/// enumerator.
+template <class T>
+std::size_t hashOf(std::string_view bytes) {
+  return std::hash<std::string_view>()(bytes) ^ typeid(T).hash_code();
+}
+
 /// pickle's two functions for a T that an Archive can traverse.
 template <class T>
 auto pickled() {
@@ -91,15 +102,22 @@ auto pickled() {
         Archive archive;
         T copy = value;
         archive(copy);
+        std::size_t hash = hashOf<T>(archive.bytes());
+        archive(hash);
         return py::make_tuple(URSULA_VERSION, py::bytes(archive.bytes()));
       },
       [](const py::tuple& state) {
         const auto version = state[0].cast<std::string>();
         if (version != URSULA_VERSION)
           throw py::value_error("pickled by ursula " + version + ", expected " URSULA_VERSION);
-        Archive archive(state[1].cast<std::string>());
+        const auto bytes = state[1].cast<std::string>();
+        const std::size_t size = bytes.size() - std::min(bytes.size(), sizeof(std::size_t));
+        std::size_t hash = 0;
+        Archive{bytes.substr(size)}(hash);
+        if (hash != hashOf<T>(std::string_view(bytes).substr(0, size)))
+          throw py::value_error("a pickle that ends early or is damaged");
         T value;
-        archive(value);
+        Archive{bytes}(value);
         return value;
       });
 }

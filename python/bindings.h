@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "python/lock.h"
 #include "python/scenario.h"
 
 namespace ursula::python {

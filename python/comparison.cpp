@@ -64,7 +64,7 @@ Comparison compared(const py::object& reference, const py::object& test, double 
       throw py::value_error(std::string(name) + " is " + shown(value) + ", expected 0 or a positive number");
   try {
     const TimeSeries before = historyFrom(reference, "reference"), after = historyFrom(test, "test");
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     return compare(before, after, {tolerance, time_tolerance, interpolate, columns});
   } catch (const py::builtin_exception&) {
     throw;

@@ -71,7 +71,7 @@ std::shared_ptr<ScenarioWithSolver> scenarioOf(const py::object& given,
                          "; read_scenario reads files");
   const std::string text = py::str(is_text ? given : py::module_::import("json").attr("dumps")(plain(given, "")));
   const std::filesystem::path file = folder.value_or("") / (is_text ? from_text : from_dict);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return warnedOf(std::make_shared<ScenarioWithSolver>(parseScenario(is_text ? text : tomlOfJson(text, file), file)));
 }
 
@@ -80,7 +80,7 @@ std::shared_ptr<ScenarioWithSolver> importModel(const std::filesystem::path& fil
                                                 const std::vector<std::string>& close, double tolerance, double lump) {
   std::shared_ptr<ScenarioWithSolver> out;
   try {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     exchange::Imported imported = exchange::importModel(file, {base, platform, actuated, close, tolerance, lump});
     const std::filesystem::path named = std::filesystem::path(file).replace_extension(".toml");
     out = std::make_shared<ScenarioWithSolver>(parseScenario(imported.scenario, named));

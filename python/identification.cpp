@@ -32,7 +32,7 @@ py::tuple identified(const ScenarioWithSolver& self, const Log& log, bool prior)
   IdentifyResult result;
   std::string summary, page, table;
   try {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     IdentifyOptions options;
     options.prior = prior;
     result = identify(self.scenario, log(), options);
@@ -68,7 +68,7 @@ py::tuple ofArrays(const ScenarioWithSolver& self, const std::vector<double>& t,
 std::string excited(const ScenarioWithSolver& self, double period, int harmonics, int tries, std::int64_t seed) {
   if (!(period >= 0 && std::isfinite(period)) || harmonics < 1 || tries < 1 || seed < 0)
     throw py::value_error("excite: expected a period and a seed of 0 or more, harmonics and tries of 1 or more");
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   ExciteOptions options;
   options.period = period;
   options.harmonics = harmonics;

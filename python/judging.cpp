@@ -80,8 +80,11 @@ ValidationResult ofSolver(const Scenario& scenario, const py::object& solver, st
   outside.name = std::move(name);
   // By reference, because copies are made without the lock.
   outside.torques = [&solver](const std::vector<Motion<double>>& motions) {
-    const py::gil_scoped_acquire locked;
-    return torquesOf(solver(Motions{motions}), motions);
+    const Locked locked;
+    const py::object given = py::cast(Motions{motions});
+    PyObject* answer = called(solver.ptr(), given.ptr());
+    if (answer == nullptr) throw py::error_already_set();
+    return torquesOf(py::reinterpret_steal<py::object>(answer), motions);
   };
   return interruptible(limit,
                        [&](const ValidationOptions& options) { return validateOutside(scenario, outside, options); });

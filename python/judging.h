@@ -28,7 +28,7 @@ auto interruptible(double time_limit, Run&& run) {
   options.time_limit = time_limit;
   options.asked_to_end = [&interruption] { return interruption.cameInBetween(); };
   auto result = [&] {
-    const pybind11::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     return run(options);
   }();
   interruption.rethrow();

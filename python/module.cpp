@@ -92,6 +92,7 @@ PYBIND11_MODULE(_ursula, module) {
   module.attr("__module__") = "ursula";  // of the classes, in errors and signatures
   module.attr("__version__") = URSULA_VERSION;
   addErrors(module);
+  ursula::python::stopWorkAtEnd();
   ursula::python::addMotion(module);
   ursula::python::addScenario(module);
   ursula::python::addValidation(module);

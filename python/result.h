@@ -7,6 +7,10 @@
 template <>
 class pybind11::detail::type_caster<ursula::Check> : public ursula::python::MadeCaster<ursula::Check> {};
 template <>
+class pybind11::detail::type_caster<ursula::Finding> : public ursula::python::MadeCaster<ursula::Finding> {};
+template <>
+class pybind11::detail::type_caster<ursula::NamedCause> : public ursula::python::MadeCaster<ursula::NamedCause> {};
+template <>
 class pybind11::detail::type_caster<ursula::EffortDeviation>
     : public ursula::python::MadeCaster<ursula::EffortDeviation> {};
 template <>

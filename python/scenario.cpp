@@ -44,7 +44,7 @@ Motions motionAt(const ScenarioWithSolver& self, const py::object& t) {
   const double* data = instants.data();
   const auto count = static_cast<std::size_t>(instants.shape(0));
   Motions out;
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   out.rows.reserve(count);
   forRows(count, [&](std::size_t k) {
     out.rows.push_back(trajectory.at(std::clamp(data[k], 0.0, duration)));
@@ -56,7 +56,7 @@ Motions motionAt(const ScenarioWithSolver& self, const py::object& t) {
 /// Answers block by block with `all`. For a flagged pose it calls one(k), which throws the program's error.
 template <class All, class One, class Put>
 void answers(const ScenarioWithSolver& self, const Motions& motion, All&& all, One&& one, Put&& put) {
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   const Load* load = self.scenario.load.get();
   std::vector<Vector6d> loads, out;
   std::vector<PoseFault> faults;
@@ -152,7 +152,7 @@ py::dict inverseKinematics(const ScenarioWithSolver& self, const Motions& motion
   Workspace<double> work;
   std::vector<JointMotion> joints(motion.rows.size());
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     forRows(motion.rows.size(), [&](std::size_t k) {
       solver.inverseKinematics(motion.rows[k], work);
       joints[k] = {solver.angles(work), solver.rates(work), solver.accelerations(work)};
@@ -204,7 +204,7 @@ std::vector<PlatformPose> directKinematics(const ScenarioWithSolver& self, const
         "direct_kinematics: all poses are known for six URS legs driven by phi, and for six UPS, RUS or PUS legs, also "
         "mixed, each driven by d, phi or d");
   const Vector6d driven = Eigen::Map<const Vector6d>(given.data());
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   const Manipulator& machine = *self.scenario.manipulator;
   return on_spheres ? posesOnSpheres(machine, driven) : posesOfPaper(self.kinematics, driven);
 }
@@ -218,7 +218,7 @@ py::tuple textOf(const ScenarioWithSolver& self) {
 
 std::shared_ptr<ScenarioWithSolver> scenarioOf(const py::tuple& state) {
   const auto text = state[0].cast<std::string>(), file = state[1].cast<std::string>();
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return std::make_shared<ScenarioWithSolver>(parseScenario(text, file));
 }
 
@@ -292,7 +292,7 @@ void addScenario(py::module_& module) {
   module.def(
       "read_scenario",
       [](const std::filesystem::path& file) {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         return warnedOf(std::make_shared<ScenarioWithSolver>(readScenario(file)));
       },
       py::arg("path"), words::read_scenario);

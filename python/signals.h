@@ -6,27 +6,37 @@
 #include <chrono>
 #include <cstddef>
 #include <optional>
+#include <stdexcept>
+
+#include "python/lock.h"
 
 namespace ursula::python {
 
 /// Catches exceptions of Python's signal handlers, such as that of Ctrl-C, while no bytecode runs.
 class Interruption {
  public:
-  /// Works with or without Python's lock, which it takes at most twenty times per second.
+  /// Works with or without Python's lock, which it takes at most twenty times per second. The interpreter's end is such
+  /// an interruption, too.
   bool cameInBetween() {
+    if (isAtEnd()) return true;
     constexpr std::chrono::milliseconds between{50};
     const auto now = std::chrono::steady_clock::now();
     if (raised_ || now - last_ < between) return raised_.has_value();
     last_ = now;
-    const pybind11::gil_scoped_acquire locked;
+    const Locked locked;
     if (PyErr_CheckSignals() != 0) raised_.emplace();
     return raised_.has_value();
   }
   void rethrow() const {
     if (raised_) throw *raised_;
+    if (isAtEnd()) throw std::runtime_error("Python ends");
   }
 
  private:
+  /// False for work that functions of `atexit` begin.
+  bool isAtEnd() const { return isEnding() && !began_at_end_; }
+
+  const bool began_at_end_ = isEnding();
   std::chrono::steady_clock::time_point last_{};
   std::optional<pybind11::error_already_set> raised_;
 };

@@ -63,7 +63,7 @@ Simulated simulated(const ScenarioWithSolver& self, const py::object& torques, c
 }
 
 std::vector<std::string> checked(const ScenarioWithSolver& self) {
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   tryMotion(self.scenario);
   return warnings(self.scenario);
 }
@@ -89,7 +89,7 @@ py::dict columnsOf(const BlockTable& blocks, int jobs) {
   std::string bytes;
   Interruption interruption;
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     streamBlocks(blocks, {RowFormat::binary, jobs, {}}, [&](std::string_view rows) {
       bytes += rows;
       if (interruption.cameInBetween()) interruption.rethrow();

@@ -44,7 +44,7 @@ py::dict seriesOf(const ValidationResult& result) {
 void written(const ValidationResult& result, const std::filesystem::path& dir) {
   if (dir.empty()) refuseFile("cannot write '': an empty path, expected a folder");
   try {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     writeResults(result, dir);
   } catch (const std::filesystem::filesystem_error& error) {
     refuseFile("cannot write " + dir.string() + ": " + error.code().message());

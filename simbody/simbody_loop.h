@@ -121,9 +121,10 @@ class SimbodyLoop {
     bool gave_up = false;
   };
   /// Integrates from the last placed state under a torque history. Calls `observe(t)` with the loop in that state, at 0
-  /// and at each of `instants` (increasing, > 0). Constraint projection is Simbody's default.
+  /// and at each of `instants` (increasing, > 0). Constraint projection is Simbody's default. No step is longer than
+  /// `longest_step` seconds; 0 for any.
   Counters integrateRungeKuttaMerson(double accuracy, const TorqueHistory& torques, const std::vector<double>& instants,
-                                     const std::function<void(double)>& observe);
+                                     const std::function<void(double)>& observe, double longest_step = 0);
 
  private:
   struct Impl;

@@ -193,7 +193,8 @@ SimbodyLoop::Power SimbodyLoop::power() const {
 
 SimbodyLoop::Counters SimbodyLoop::integrateRungeKuttaMerson(double accuracy, const TorqueHistory& torques,
                                                              const std::vector<double>& instants,
-                                                             const std::function<void(double)>& observe) {
+                                                             const std::function<void(double)>& observe,
+                                                             double longest_step) {
   Impl& loop = *impl_;
   std::exception_ptr lack;
   loop.applied->history = noting(lack, torques);
@@ -204,6 +205,7 @@ SimbodyLoop::Counters SimbodyLoop::integrateRungeKuttaMerson(double accuracy, co
   integrator.setConstraintTolerance(accuracy);
   integrator.setReturnEveryInternalStep(false);
   integrator.setFinalTime(instants.back());
+  if (longest_step > 0) integrator.setMaximumStepSize(longest_step);
   loop.state.invalidateAllCacheAtOrAbove(SimTK::Stage::Dynamics);
   const int before = loop.system.getNumRealizationsOfThisStage(SimTK::Stage::Acceleration);
   try {

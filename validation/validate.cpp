@@ -98,12 +98,16 @@ void explainSolver(const Scenario& scenario, const Evidence& evidence, const Sub
   partLikelyCause()(relocated(scenario, evidence.natural.origin), file, &wrong, result);
 }
 
-/// The subject, which answers only until the deadline.
+/// The subject, which answers only until the deadline, also when rebuilt.
 Subject inTime(Subject subject, const Deadline& deadline) {
   subject.torques = [torques = std::move(subject.torques), deadline](const Motion<double>& motion) {
     deadline.require();
     return torques(motion);
   };
+  if (subject.rebuilt)
+    subject.rebuilt = [rebuilt = std::move(subject.rebuilt), deadline](const Manipulator& machine) {
+      return inTime(rebuilt(machine), deadline);
+    };
   return subject;
 }
 

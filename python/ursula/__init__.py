@@ -79,8 +79,16 @@ Result._repr_html_ = _notebook.html
 
 _classes = (Cause, Channel, Check, Comparison, Deviation, Finding, Identified, Motion, Pose, PoseError, ReplayError, Result, Scenario,
             ScenarioError, Simulation, UndeterminedPose)
+
+
+def _reduced(self, protocol):
+    # For protocols 0 and 1, copyreg makes an object of pybind11's own base class, which aborts.
+    return object.__reduce_ex__(self, max(protocol, 2))
+
+
 for _each in _classes:
     _each.__module__ = __name__
+    _each.__reduce_ex__ = _reduced
 identify.__module__ = __name__
 _errors.put_in_words(_classes)
 for _each in (check, compare, excite, import_model, map, read_scenario, scenario, simulate, validate):

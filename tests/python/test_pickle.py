@@ -85,6 +85,70 @@ def test_copies_of_what_cannot_change(quick):
         assert copy.copy(each) is each and copy.deepcopy([each])[0] is each
 
 
+def pickled(quick):
+    """An object of each class that can be pickled."""
+    s = ursula.read_scenario(quick)
+    t = np.linspace(0, s.duration, 41)
+    tau = s.inverse_dynamics(s.motion(t))
+    r = ursula.validate(s, lambda m: s.inverse_dynamics(m) * np.array([1, 1, 1.001, 1, 1, 1]))
+    out = [s, s.motion(t[:3]), r, r.checks[0], r.findings[0], r.deviation, r.cause, ursula.simulate(s, tau, t)]
+    return out + [each for each in (r.replay_error,) if each]
+
+
+def test_every_class_by_every_protocol(quick):
+    kinds = set()
+    for each in pickled(quick):
+        kinds.add(type(each).__name__)
+        for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+            again = pickle.loads(pickle.dumps(each, protocol))
+            assert type(again) is type(each) and repr(again) == repr(each), (each, protocol)
+    assert kinds >= {"Scenario", "Motion", "Result", "Check", "Finding", "Deviation", "Cause", "Simulation"}
+
+
+@pytest.mark.parametrize("protocol", (0, 1, 2))
+def test_a_class_that_cannot_be_pickled_says_so(quick, protocol):
+    s = ursula.read_scenario(quick)
+    pose = s.direct_kinematics(s.inverse_kinematics(s.motion(0.0))["phi"][0])[0]
+    with pytest.raises(TypeError, match="cannot pickle"):
+        pickle.dumps(pose, protocol)
+
+
+def test_a_damaged_pickle_is_refused(quick):
+    """In a child process, because a damaged one that is read may end it."""
+    for each in pickled(quick):
+        if isinstance(each, (ursula.Scenario, ursula.Simulation)):  # text, and a Motion with an array
+            continue
+        version, state = each.__getstate__()
+        step = max(1, len(state) // 200)
+        child = os.fork()
+        if child == 0:
+            refused = True
+            for at in [*range(0, len(state), step), len(state) - 1]:
+                damaged = bytearray(state)
+                damaged[at] ^= 0xc8
+                try:
+                    type(each).__new__(type(each)).__setstate__((version, bytes(damaged)))
+                    refused = False
+                except ValueError as error:
+                    refused = refused and "damaged" in str(error)
+            os._exit(0 if refused else 1)
+        assert os.waitpid(child, 0)[1] == 0, each
+
+
+def test_a_pickle_of_another_class_is_refused(quick):
+    r = ursula.validate(ursula.read_scenario(quick), time_limit=1e-9)
+    with pytest.raises(ValueError, match="damaged"):
+        ursula.Finding.__new__(ursula.Finding).__setstate__(r.checks[0].__getstate__())
+
+
+@pytest.mark.parametrize("name", ("Cause", "Check", "Deviation", "Finding", "Motion", "ReplayError", "Result", "Scenario", "Simulation"))
+def test_an_object_that_was_never_made_is_refused(name):
+    each = getattr(ursula, name)
+    for attribute in [word for word in dir(each) if isinstance(getattr(each, word), property)]:
+        with pytest.raises(TypeError, match="never called"):
+            getattr(each.__new__(each), attribute)
+
+
 def test_what_is_no_pickle_of_this_version_is_refused(helix):
     m = ursula.read_scenario(helix).motion(0)
     version, state = m.__getstate__()

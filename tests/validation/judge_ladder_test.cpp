@@ -105,6 +105,25 @@ TEST(JudgeLadder, theBoundIsWiderWhereStepsAreHardlyMore) {
   EXPECT_DOUBLE_EQ(limit(70), 0.25e-10) << "twice as many: a quarter";
 }
 
+/// Two rungs that are the same run are no evidence, be the distance large; nor is a rung alone.
+TEST(JudgeLadder, saysNothingWhereRungsAreTheSameRun) {
+  const auto same = [](long finest_steps) {
+    WindowedReplay finest = madeReplay(1);
+    finest.replay.accepted = finest_steps;
+    Ladder ladder = madeLadder();
+    ladder.rungs[1].distance = ladder.rungs[2].distance = 1e-6;
+    ladder.rungs[1].steps = ladder.rungs[2].steps;
+    return judgeLadder(ladder, finest, position_scale);
+  };
+  EXPECT_EQ(verdictOf(same(70), "integration.ladder"), "inconclusive");
+  EXPECT_THAT(findCheck(same(70), "integration.ladder")->why, HasSubstr("the same steps"));
+  EXPECT_EQ(verdictOf(same(200), "integration.ladder"), "fail") << "the tolerance is ignored";
+  const std::vector<Check> alone = judge([](Ladder& ladder) { ladder.rungs.resize(1); }, 1);
+  EXPECT_EQ(verdictOf(alone, "integration.ladder"), "inconclusive");
+  EXPECT_THAT(findCheck(alone, "integration.ladder")->why, HasSubstr("two are needed"));
+  EXPECT_EQ(verdictOf(alone, "integration.second"), "pass");
+}
+
 /// The other integrator's bound is its own change plus the possible error of the judged replay at that instant.
 TEST(JudgeLadder, theSecondIsBoundByItsOwnErrorAndTheReplays) {
   const auto limit = [](double difference, double end) {

@@ -197,6 +197,16 @@ TEST(IntegrationErrors, areDifferencesOfTwoReplaysAndTheGapsOfTheCoarser) {
   EXPECT_NEAR(at.energy, 4e-10 * 0.5, 1e-20);
 }
 
+/// A replay with shorter steps has smaller gaps, which show those of the longer steps by their change.
+TEST(IntegrationErrors, areTheChangesOfGapsTowardsAFinerReplay) {
+  Replay finer = errors(1e-12);
+  finer.accepted = 20;
+  const IntegrationError::At at = integrationError(errors(1e-10), finer).at(0.5);
+  EXPECT_NEAR(at.gap, 198e-12 * 0.5, 1e-20);
+  EXPECT_NEAR(at.gap_rate, 297e-12 * 0.5, 1e-20);
+  EXPECT_NEAR(at.energy, 396e-12 * 0.5, 1e-20);
+}
+
 /// Values are the largest so far, because an error that returns to zero still occurred.
 TEST(IntegrationErrors, neverFallAndKeepNaN) {
   Replay coarse = errors(0);

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "tests/support/matchers.h"
@@ -61,6 +63,31 @@ TEST(OutsideSolver, isJudgedAsWhatIsAskedOneByOne) {
     EXPECT_EQ(a.limit, b.limit) << a.name;
   }
   EXPECT_GE(judged, 15);
+}
+
+/// Every motion takes 2 ms at least. So no call, but the first of each size, may have more than 125 of them, and none
+/// begins after the limit.
+TEST(OutsideSolver, isAskedInPiecesUnderATimeLimit) {
+  Case here;
+  here.scenario.simulation.samples = 301;
+  std::size_t motions = 0, most = 0;
+  const OutsideSolver slow = here.solver([&](std::size_t count) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2) * count);
+    motions += count;
+    most = std::max(most, count);
+  });
+  ValidationOptions options;
+  options.time_limit = 0.5;
+  const ValidationResult result = validateOutside(here.scenario, slow, options);
+  EXPECT_EQ(result.verdict, Verdict::inconclusive);
+  EXPECT_LE(most, 125U);
+  EXPECT_LE(motions, 250U + 125U);
+  std::size_t first = 0;
+  try {
+    validateOutside(here.scenario, here.solver([&](std::size_t count) { throw first = count; }));
+  } catch (const std::size_t&) {
+  }
+  EXPECT_EQ(first, 301U) << "without a limit it is asked for all at once";
 }
 
 struct Broke {

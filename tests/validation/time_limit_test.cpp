@@ -65,6 +65,29 @@ TEST(TimeLimit, holdsForTheObservedOrders) {
   EXPECT_THROW(observedOrders(quick(), false, Deadline(0, [&asked] { return ++asked > 10; })), OutOfTime);
 }
 
+/// No experiment that takes long goes on. A subject is asked for another machine's torques, too.
+TEST(TimeLimit, holdsForEveryInstantOfAnExperiment) {
+  const Scenario scenario = quick();
+  std::atomic<int> rebuilt{0};
+  std::atomic<bool> over{false};
+  const Deadline deadline(0, [&over] { return over.load(); });
+  Subject subject = nocSubject(*scenario.manipulator, nullptr);
+  subject.rebuilt = [&, build = subject.rebuilt](const Manipulator& machine) {
+    return changedTorques(build(machine),
+                          [&](const auto&, const Vector6d& torques) { return over = ++rebuilt >= 3, torques; });
+  };
+  ValidationOptions options;
+  options.reference = makeReference(scenario, 1, deadline);
+  const ValidationResult result = validate(scenario, subject, options);
+  EXPECT_EQ(rebuilt, 3);
+  EXPECT_EQ(verdictOf(result.checks, "invariance.rotation"), "inconclusive");
+  over = false;
+  const auto reference = makeReference(scenario, 1, deadline);
+  reference->rounding();
+  over = true;
+  EXPECT_THROW(reference->reactions(), OutOfTime);
+}
+
 void expectAllUnfinished(const ValidationResult& result) {
   EXPECT_EQ(result.verdict, Verdict::inconclusive) << others(result.checks, Verdict::inconclusive);
   std::size_t unfinished = 0;

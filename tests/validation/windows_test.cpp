@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <iostream>
 #include <limits>
 
 #include "tests/validation/checks.h"
@@ -82,6 +84,84 @@ TEST_F(LongMotion, hasWindowsAsLongAsTheirBoundIsUseful) {
     }
     first = window.last;
   }
+}
+
+/// In so short a window both tolerances take the same steps, and the replays are the same. The measured error must be
+/// that of the steps all the same.
+class SingleSteps : public testing::TestWithParam<Integrator> {};
+
+TEST_P(SingleSteps, haveTheirErrorMeasured) {
+  Scenario scenario = scenarioOf("hexa");
+  scenario.simulation.integrator = GetParam();
+  const Subject solver = solverOf(scenario);
+  const std::vector<PointwiseSample> samples = rightSamples(scenario, 21);
+  const bool by_simbody = GetParam() == Integrator::rk_merson;
+  ReplayPlan plan{[&](double t) { return solver.torques(scenario.trajectory->at(t)); }, SampledLimit(samples),
+                  positionScale(samples), plannedStepRate(scenario.trajectory->duration())};
+  plan.tolerance = by_simbody ? 1e-6 : 1e-3;
+  const Amplification amplification(scenario, by_simbody ? 300 : 20);
+  std::vector<WindowedReplay> windows =
+      replayInWindows(scenario, plan, {amplification.window(4, plan.acceleration, 0, 0)});
+  measureIntegration(scenario, plan, windows);
+  const WindowedReplay& window = windows.front();
+  ASSERT_EQ(window.replay.accepted, window.coarse->accepted);
+  const double end = window.window.end();
+  EXPECT_EQ(integrationError(window.replay, *window.coarse).at(end).position, 0)
+      << "a hundredfold tolerance shows none";
+  ReplayPlan sharp = plan;
+  sharp.tolerance = 1e-14;
+  scenario.simulation.integrator = Integrator::rkf78;
+  const Replay exact = replay(scenario, sharp.torques, settingsOf(scenario, sharp, window.window, 0.01));
+  const double error = (window.replay.steps.back().position_error - exact.steps.back().position_error).norm();
+  std::cout << "error " << error << " m, measured " << window.integration.at(end).position << " m\n";
+  EXPECT_GT(window.integration.at(end).position, 0);
+  EXPECT_LE(error, integration_safety * window.integration.at(end).position + driftLimit(window.window, 0, 1, 1, end));
+  if (by_simbody) {
+    EXPECT_GT(error, driftLimit(window.window, 0, 1, 1, end)) << "rounding alone allows it";
+    EXPECT_EQ(others(judgeReplay(windows, positionScale(samples), amplification.length(), loopForces(samples)),
+                     Verdict::pass),
+              "");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, SingleSteps, testing::Values(Integrator::rkf78, Integrator::rk_merson),
+                         [](const auto& each) { return std::string(name(each.param)); });
+
+/// The bound of a window takes as many matrix products as half the square of its intervals. A window of a long motion
+/// in which nothing grows would have all of them.
+TEST(SlowMotion, hasWindowsWithBoundedWork) {
+  Scenario scenario = scenarioOf("hold");
+  constexpr int intervals = 40'000;
+  const Amplification amplification(scenario, intervals);
+  ReplayPlan plan;
+  plan.acceleration = [](double) { return 0.0; };
+  plan.tolerance = 0;
+  double products = 0;
+  std::size_t first = 0;
+  for (const GrowthWindow& window : planWindows(amplification, plan)) {
+    EXPECT_LE(window.last - first, amplification.longestWindow());
+    products += 0.5 * std::pow(static_cast<double>(window.last - first), 2);
+    first = window.last;
+  }
+  EXPECT_EQ(first, static_cast<std::size_t>(intervals));
+  EXPECT_LT(products, 2e7);
+  EXPECT_GE(Amplification(scenario, 300).longestWindow(), 300U) << "an ordinary motion may be one window";
+}
+
+TEST(SlowMotion, isLinearisedSparsely) {
+  EXPECT_EQ(linearisedIntervals(1), 300);
+  EXPECT_EQ(linearisedIntervals(100), 4000);
+  EXPECT_EQ(linearisedIntervals(8000), 60'000);
+  EXPECT_EQ(linearisedIntervals(20'000), 80'000);
+  EXPECT_EQ(linearisedIntervals(1e9), 300'000);
+}
+
+TEST_F(LongMotion, isPlannedUntilTheDeadline) {
+  ReplayPlan plan = this->plan();
+  int asked = 0;
+  plan.deadline = Deadline(0, [&asked] { return ++asked > 10; });
+  EXPECT_THROW(windows(plan), OutOfTime) << "it looks within a window";
+  EXPECT_EQ(asked, 11);
 }
 
 TEST_F(LongMotion, needsMoreWindowsForLargerErrors) {

@@ -53,8 +53,10 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
   // The rungs take as many steps as each other, but the judged replay takes more, so knots do not set the steps.
   const bool ignores_tolerance =
       steps <= 1 && static_cast<double>(finest.replay.accepted) > 1.5 * static_cast<double>(fine.steps);
-  const double share =
-      ignores_tolerance ? 1 / least_gain : std::max(1 / least_gain, 2 * std::pow(steps, -nominal_order / 2));
+  const bool same_run = !ignores_tolerance && steps == 1 && fine.distance == coarse.distance;  // it says nothing
+  const double share = same_run            ? 0
+                       : ignores_tolerance ? 1 / least_gain
+                                           : std::max(1 / least_gain, 2 * std::pow(steps, -nominal_order / 2));
   WorstShare worst;
   worst.add(fine.distance,
             std::max({coarse.distance * share, roundingBound(finest, position_scale, finest.window.end()),
@@ -69,10 +71,12 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
                   finest.replay.tolerance, orders.empty() ? "none" : orders, nominal_order,
                   ladder.asymptotic ? "asymptotic" : "not asymptotic"),
       "a coarser tolerance, or rounding, moves the end by as much");
-  if (check.verdict == Verdict::fail && ladder.passes_knots)
+  if (check.verdict == Verdict::fail && (ladder.passes_knots || same_run))
     check =
         notJudgeable(Reason::limit_useless, check.name, check.value, check.limit, "m", check.basis,
-                     check.why + "; the motion has more knots than can be stepped to, so that it need not converge");
+                     check.why + (same_run ? "; both tolerances take the same steps, which shows no convergence"
+                                           : "; the motion has more knots than can be stepped to, so that it need not "
+                                             "converge"));
   return check;
 }
 
@@ -125,7 +129,7 @@ Check judgeSecond(const Ladder& ladder, const WindowedReplay& finest, double pos
 
 std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& finest, double position_scale,
                                const Units& units) {
-  if (ladder.rungs.size() < 2) return {notMade("integration.ladder", "m", "no ladder was climbed")};
+  if (ladder.rungs.empty()) return {notMade("integration.ladder", "m", "no ladder was climbed")};
   if (!finest.replay.gave_up.empty())
     return notClimbed(finest.replay.too_long, "the judged replay gave up: " + finest.replay.gave_up);
   if (finest.replay.left_path) return notClimbed(false, "the judged replay left the path");
@@ -134,7 +138,14 @@ std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& fines
   if (const Rung* rung = firstThat(ladder.rungs, [](const Rung& each) { return !each.gave_up.empty(); }))
     return notClimbed(rung->too_long,
                       fmt::format("{} at {:g} gave up: {}", name(rung->integrator), rung->tolerance, rung->gave_up));
-  return {judgeConvergence(ladder, finest, position_scale, units), judgeSecond(ladder, finest, position_scale, units)};
+  const Check convergence =
+      ladder.rungs.size() > 1
+          ? judgeConvergence(ladder, finest, position_scale, units)
+          : notJudgeable(
+                Reason::not_covered, "integration.ladder", std::nan(""), std::nan(""), "m", "",
+                fmt::format("a tolerance of {:g} leaves room for one coarser tolerance, {:g}, and two are needed",
+                            finest.replay.tolerance, ladder.rungs.front().tolerance));
+  return {convergence, judgeSecond(ladder, finest, position_scale, units)};
 }
 
 }  // namespace ursula

@@ -82,7 +82,10 @@ class SplineLimit {
     const RoundingProfile profile(scenario, profileInstants(static_cast<int>(grid_.size())), deadline);
     conditions_ = conditionsAt(scenario, grid_, profile, deadline);
     const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
-    interpolation_ = interpolationErrors(t_, [&](double t) { return noc.torques(scenario.trajectory->at(t)); });
+    interpolation_ = interpolationErrors(t_, [&](double t) {
+      deadline.require();
+      return noc.torques(scenario.trajectory->at(t));
+    });
     std::vector<double> norms;
     for (const PointwiseSample& sample : torques.samples) norms.push_back(sample.torques_given.norm());
     digits_ = carriedErrors(t_, norms);

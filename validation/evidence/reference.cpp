@@ -139,7 +139,12 @@ const std::vector<EngineTorques>& Reference::engines() const {
 
 const std::vector<ReactionSample>& Reference::reactions() const {
   return reactions_.get([this] {
-    return runReactions(in_simbody, nocSubject(*scenario.manipulator, scenario.load), rounding().conditions);
+    Subject right = nocSubject(*scenario.manipulator, scenario.load);
+    right.torques = [this, torques = right.torques](const Motion<double>& motion) {
+      deadline.require();
+      return torques(motion);
+    };
+    return runReactions(in_simbody, right, rounding().conditions);
   });
 }
 

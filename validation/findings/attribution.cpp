@@ -192,6 +192,8 @@ ErrorBudget attributed(const Scenario& scenario, const std::vector<PointwiseSamp
   const auto at = [&](std::size_t k, double t) {
     ErrorBudget out = tracks.at(k, amplification.carried(window.window.start(), t, residual).head<3>());
     out.t = t;
+    if (out.integration.error.isZero(0))  // equal replays say nothing
+      out.integration.uncertainty = measuredError(window, t, &IntegrationError::At::position);
     return out;
   };
   ErrorBudget budget = at(instants.size(), instants.back());

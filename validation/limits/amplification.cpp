@@ -169,8 +169,14 @@ class Amplification::CarriedDeviation {
   std::vector<Norms> norms_, before_;  ///< norms of Φ; indexed by j − k if all are equal
 };
 
+std::size_t Amplification::longestWindow() const {
+  constexpr std::size_t products =
+      10'000'000;  // half as many intervals as a window has are carried at each of its ends
+  return std::max<std::size_t>(1, 2 * products / intervals());
+}
+
 GrowthWindow Amplification::window(std::size_t first, const std::function<double(double)>& acceleration, double rate,
-                                   double useful) const {
+                                   double useful, const Deadline& deadline) const {
   GrowthWindow out;
   CarriedDeviation carried(*this);
   std::vector<double> errors;  // acceleration errors in interval k, m/s
@@ -184,7 +190,8 @@ GrowthWindow Amplification::window(std::size_t first, const std::function<double
   add(instants_[first], 0, 0, Matrix12::Identity());
   out.last = first;
   out.length = length_;
-  for (std::size_t j = first; j < intervals(); ++j) {
+  for (std::size_t j = first; j < std::min(intervals(), first + longestWindow()); ++j) {
+    deadline.require();
     const double h = instants_[j + 1] - instants_[j];
     errors.push_back(h * std::max(acceleration(instants_[j]), acceleration(instants_[j + 1])));
     carried.moveOn(j);

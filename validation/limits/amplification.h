@@ -38,9 +38,12 @@ class Amplification {
   Amplification(const Scenario& scenario, int intervals, const Deadline& deadline = {});
 
   /// The longest window from instant `first` in which the bound stays below `useful`; at least one interval. Errors are
-  /// `acceleration(t)` m/s² and `rate` per second, all in the worst direction.
-  GrowthWindow window(std::size_t first, const std::function<double(double)>& acceleration, double rate,
-                      double useful) const;
+  /// `acceleration(t)` m/s² and `rate` per second, all in the worst direction. The work grows with the square of a
+  /// window's intervals, so it has at most longestWindow() of them.
+  GrowthWindow window(std::size_t first, const std::function<double(double)>& acceleration, double rate, double useful,
+                      const Deadline& deadline = {}) const;
+  /// The windows of the whole motion then take a bounded number of matrix products, some seconds.
+  std::size_t longestWindow() const;
 
   /// The deviation at `end` of a motion that starts on the path at `start` with an acceleration error [p̈; L ω̇] of
   /// `error(t)`: ∫ Φ(end, s) [0; error(s)] ds. Both times are rounded to the nearest instants.

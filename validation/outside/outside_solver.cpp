@@ -1,5 +1,8 @@
 #include "validation/outside/outside_solver.h"
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -17,10 +20,13 @@ struct SolverStopped {};
 
 bool same(const Motion<double>& a, const Motion<double>& b) { return a.t == b.t && sameState(a, b); }
 
-/// Asks the solver, remembers its last answers, and stores its exception.
+/// The longest call under a time limit, s, and how many more motions than before one may have.
+constexpr double longest_call = 0.25, most_more = 8;
+
+/// Asks the solver, remembers its last answers, and stores its exception. Under a time limit it asks in pieces.
 class Asking {
  public:
-  explicit Asking(const OutsideSolver& solver) : solver_(solver) {}
+  Asking(const OutsideSolver& solver, double time_limit) : solver_(solver), deadline_(time_limit) {}
 
   Vector6d one(const Motion<double>& motion) {
     const std::lock_guard<std::mutex> one_at_a_time(mutex_);
@@ -67,10 +73,7 @@ class Asking {
     if (thrown_) throw SolverStopped{};
     std::vector<Vector6d> answers;
     try {
-      answers = solver_.torques(motions);
-      if (answers.size() != motions.size())
-        throw std::invalid_argument(solver_.name + ": " + std::to_string(answers.size()) + " answers to " +
-                                    std::to_string(motions.size()) + " motions");
+      answers = deadline_.isSet() ? inPieces(motions) : answersTo(motions);
     } catch (const OutOfTime&) {
       throw;  // the validation's end, not the solver's
     } catch (...) {
@@ -84,7 +87,34 @@ class Asking {
     return answers;
   }
 
+  std::vector<Vector6d> answersTo(const std::vector<Motion<double>>& motions) const {
+    std::vector<Vector6d> answers = solver_.torques(motions);
+    if (answers.size() != motions.size())
+      throw std::invalid_argument(solver_.name + ": " + std::to_string(answers.size()) + " answers to " +
+                                  std::to_string(motions.size()) + " motions");
+    return answers;
+  }
+
+  /// The pieces grow until a call takes long, because the rate is unknown at first.
+  std::vector<Vector6d> inPieces(const std::vector<Motion<double>>& motions) {
+    using Clock = std::chrono::steady_clock;
+    std::vector<Vector6d> out;
+    for (auto from = motions.begin(), to = from; from != motions.end(); from = to) {
+      deadline_.require();
+      to += std::min(piece_, motions.end() - from);
+      const Clock::time_point begun = Clock::now();
+      const std::vector<Vector6d> some = answersTo({from, to});
+      const double share = std::chrono::duration<double>(Clock::now() - begun).count() / longest_call;
+      out.insert(out.end(), some.begin(), some.end());
+      if (to - from == piece_ || share > 1)
+        piece_ = std::max(1L, std::lround(static_cast<double>(to - from) / std::max(share, 1 / most_more)));
+    }
+    return out;
+  }
+
   OutsideSolver solver_;
+  Deadline deadline_;
+  long piece_ = 1;  ///< motions in a call
   std::mutex mutex_;
   std::unordered_map<double, Answer> known_;  ///< by instant, since a solver is asked along one motion
   std::vector<Answered> all_;
@@ -95,7 +125,7 @@ class Asking {
 
 ValidationResult validateOutside(const Scenario& scenario, const OutsideSolver& solver,
                                  const ValidationOptions& options) {
-  const auto asking = std::make_shared<Asking>(solver);
+  const auto asking = std::make_shared<Asking>(solver, options.time_limit);
   Subject subject;
   subject.name = solver.name;
   subject.called_by = solver.called_by;

@@ -17,6 +17,8 @@ namespace {
 
 /// Factor on the tolerance of an additional rung, for the case that a rung meets a kink of the friction.
 constexpr double last_rung = 10;
+/// The largest tolerance of a rung.
+constexpr double coarsest = 1e-4;
 
 using ChangeSettings = std::function<void(ReplaySettings&)>;
 
@@ -119,7 +121,7 @@ void replaySecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& to
   Replay coarse = run(10 * second_accuracy);
   if (!coarse.gave_up.empty()) return;
   Replay fine = run(second_accuracy);
-  // If the steps do not depend on the accuracy, equal runs say nothing about the error.
+  // Equal runs say nothing about the error.
   for (double accuracy = second_accuracy / 10; accuracy > 1e-14 && fine.evaluations <= coarse.evaluations;
        accuracy /= 10) {
     coarse = std::move(fine);
@@ -159,7 +161,8 @@ Ladder replayLadder(const Scenario& scenario, const SimbodyLoop::TorqueHistory& 
   const ChangeSettings timed = inTime(change, deadline);
   Ladder ladder;
   for (double factor : {1e6, 1e4, coarser}) {
-    const double tolerance = std::min(1e-4, factor * finest.replay.tolerance);
+    const double tolerance = std::min(coarsest, factor * finest.replay.tolerance);
+    if (!ladder.rungs.empty() && ladder.rungs.back().tolerance == tolerance) continue;  // it would be the same run
     const bool known = !change && finest.coarse && finest.coarse->integrator == Integrator::rkf78 &&
                        finest.coarse->tolerance == tolerance && finest.coarse->asked.sameFrom(torques);
     const ReplaySettings settings = settingsOf(finest, Integrator::rkf78, tolerance);
@@ -168,6 +171,8 @@ Ladder replayLadder(const Scenario& scenario, const SimbodyLoop::TorqueHistory& 
     else
       makeRung(scenario, torques, finest, tolerance, timed, ladder);
   }
+  if (ladder.rungs.size() == 1 && last_rung * finest.replay.tolerance < coarsest)
+    makeRung(scenario, torques, finest, last_rung * finest.replay.tolerance, timed, ladder);
   for (std::size_t k = 0; k + 1 < ladder.rungs.size(); ++k)
     ladder.observed_orders.push_back(order(ladder.rungs[k], ladder.rungs[k + 1]));
   ladder.asymptotic = std::all_of(ladder.observed_orders.begin(), ladder.observed_orders.end(),

@@ -28,7 +28,7 @@ constexpr double second_accuracy = 1e-9;
 
 /// The same window replayed at several tolerances, and its beginning with Simbody's own integrator.
 struct Ladder {
-  std::vector<Rung> rungs;  ///< rkf78 from coarse to fine
+  std::vector<Rung> rungs;  ///< rkf78 from coarse to fine, at different tolerances
   /// rk_merson at two accuracies or more over the beginning of the window, the finest last. Distances are those from
   /// the finest replay at `second_end`.
   std::vector<Rung> second;

@@ -140,8 +140,8 @@ class Run {
       settings_.deadline.require();
       return torques_(t);
     };
-    const SimbodyLoop::Counters counters =
-        loop_.integrateRungeKuttaMerson(settings_.tolerance, timed, instants, [this](double t) { record(t); });
+    const SimbodyLoop::Counters counters = loop_.integrateRungeKuttaMerson(
+        settings_.tolerance, timed, instants, [this](double t) { record(t); }, settings_.longest_step);
     result_.evaluations = counters.derivative_evaluations;
     result_.accepted = counters.steps;
     if (counters.gave_up) result_.gave_up = "Simbody's integrator could not keep its accuracy";

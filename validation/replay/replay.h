@@ -50,6 +50,7 @@ struct ReplaySettings {
   Eigen::Matrix<double, 12, 1> deviation = Eigen::Matrix<double, 12, 1>::Zero();
   std::vector<double> stops;     ///< rkf78 only: further instants to step to
   int instants = 101;            ///< rk_merson only: number of equally spaced instants to compare at
+  double longest_step = 0;       ///< rk_merson only, s; 0: as long as the tolerance allows
   long max_evaluations = 20000;  ///< gives up after this number
   Deadline deadline;             ///< OutOfTime is thrown once it is over
   bool project = false;          ///< rkf78 only: after each step the legs follow the platform, which closes the gaps

@@ -37,15 +37,19 @@ IntegrationError integrationError(const Replay& fine, const Replay& coarse) {
   IntegrationError out;
   IntegrationError::At largest;
   const double reached = coarse.steps.empty() ? 0 : coarse.steps.back().t;
+  // Of an error that should be 0, longer steps show the size, and shorter ones the change.
+  const auto shown = [shorter = coarse.accepted > fine.accepted](double other, double here) {
+    return shorter ? larger(std::abs(other), std::abs(other - here)) : std::abs(other);
+  };
   for (const ReplayStep& step : fine.steps) {
     if (step.t - reached > same_instant * step.t) break;
     const ReplayStep other = interpolated(coarse, step.t);
     largest.t = step.t;
     largest.position = larger(largest.position, (step.position_error - other.position_error).norm());
     largest.rotation = larger(largest.rotation, (step.rotation_error - other.rotation_error).norm());
-    largest.gap = larger(largest.gap, other.closure.position);
-    largest.gap_rate = larger(largest.gap_rate, other.closure.velocity);
-    largest.energy = larger(largest.energy, std::abs(other.energy_error));
+    largest.gap = larger(largest.gap, shown(other.closure.position, step.closure.position));
+    largest.gap_rate = larger(largest.gap_rate, shown(other.closure.velocity, step.closure.velocity));
+    largest.energy = larger(largest.energy, shown(other.energy_error, step.energy_error));
     out.steps.push_back(largest);
   }
   return out;

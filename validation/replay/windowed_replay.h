@@ -9,9 +9,9 @@
 
 namespace ursula {
 
-/// The measured integration error in one window. The right torques are replayed at the tolerance and at a hundred times
-/// it, with the coarser replay's gaps and energy. The closer look does the same with halved steps and changed inputs.
-/// Values are the largest up to each instant.
+/// The measured integration error in one window, as the change from a replay of the right torques to another one. That
+/// has a hundred times the tolerance, or halved steps if the tolerance does not set them. The closer look uses halved
+/// steps and changed inputs. Gaps and energy are also the other replay's own. Values are the largest up to each instant.
 struct IntegrationError {
   struct At {
     double t = 0;

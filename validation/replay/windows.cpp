@@ -113,8 +113,9 @@ template LoopForces loopForces(const std::vector<Conditions>&);
 template LoopForces loopForces(const std::vector<PointwiseSample>&);
 
 int linearisedIntervals(double duration) {
-  constexpr double least = 300, most = 300'000;  // an interval takes a kilobyte
-  return static_cast<int>(std::clamp(std::ceil(40 * duration), least, most));
+  constexpr double least = 300, many = 60'000, most = 300'000;    // an interval takes a kilobyte
+  const double coarse = std::max(many, std::ceil(4 * duration));  // of a motion this long, if it is no slow one
+  return static_cast<int>(std::clamp(std::min(std::ceil(40 * duration), coarse), least, most));
 }
 
 Amplification linearised(const Scenario& scenario, const Deadline& deadline) {
@@ -140,7 +141,7 @@ std::vector<GrowthWindow> planWindows(const Amplification& amplification, const 
     planned = std::numeric_limits<double>::infinity();
   std::vector<GrowthWindow> windows;
   for (std::size_t first = 0; first + 1 < amplification.instants().size(); first = windows.back().last)
-    windows.push_back(amplification.window(first, plan.acceleration, rate, planned));
+    windows.push_back(amplification.window(first, plan.acceleration, rate, planned, plan.deadline));
   return windows;
 }
 
@@ -170,14 +171,6 @@ std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Repl
   return replays;
 }
 
-void measureIntegration(const Scenario& scenario, const ReplayPlan& plan, std::vector<WindowedReplay>& windows) {
-  for (WindowedReplay& window : windows) {
-    window.coarse = std::make_shared<const Replay>(
-        replay(scenario, plan.torques, settingsOf(scenario, plan, window.window, coarser)));
-    window.integration = integrationError(window.replay, *window.coarse);
-  }
-}
-
 namespace {
 
 constexpr unsigned moves_of_replay = 3;
@@ -190,11 +183,30 @@ Replay replayedByHalves(const Scenario& scenario, const ReplayPlan& plan, const 
     settings.stops.push_back((here.steps[k].t + here.steps[k + 1].t) / 2);
     settings.stops.push_back(here.steps[k + 1].t);
   }
+  const auto steps = static_cast<double>(std::max(here.accepted, 1L));
+  settings.longest_step = (window.end() - window.start()) / (2 * steps);
   settings.max_evaluations *= 4;
   return replay(scenario, plan.torques, settings);
 }
 
+/// With fewer steps by less than this, the difference of two replays is not the coarser one's error.
+constexpr double fewer_steps = 1.1;
+
+bool hasLongerSteps(const Replay& coarse, const Replay& fine) {
+  return fewer_steps * static_cast<double>(coarse.accepted) <= static_cast<double>(fine.accepted);
+}
+
 }  // namespace
+
+void measureIntegration(const Scenario& scenario, const ReplayPlan& plan, std::vector<WindowedReplay>& windows) {
+  for (WindowedReplay& window : windows) {
+    window.coarse = std::make_shared<const Replay>(
+        replay(scenario, plan.torques, settingsOf(scenario, plan, window.window, coarser)));
+    const bool tells = hasLongerSteps(*window.coarse, window.replay) || !window.replay.gave_up.empty();
+    window.integration = integrationError(
+        window.replay, tells ? *window.coarse : replayedByHalves(scenario, plan, window.window, window.replay));
+  }
+}
 
 IntegrationError closerLook(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
                             const Replay& here) {

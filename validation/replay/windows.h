@@ -23,7 +23,8 @@ struct ReplayPlan {
   std::function<void(const std::vector<double>&)> foresee = nullptr;  ///< as in ReplaySettings; may be empty
 };
 
-/// Returns 300 intervals, or 40 per second if that is more, up to 300,000.
+/// Returns 300 intervals, or 40 per unit of time if that is more. Above 60,000 there are fewer, at least 4 per unit of
+/// time up to 300,000, because so long a motion takes long otherwise.
 int linearisedIntervals(double duration);
 /// The growth of deviations along the scenario's motion, in linearisedIntervals().
 Amplification linearised(const Scenario& scenario, const Deadline& deadline = {});
@@ -44,7 +45,8 @@ std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Repl
                                             const std::vector<GrowthWindow>& windows);
 
 /// Sets the integration error of each of `windows`, replays under the right torques, by another replay with `coarser`
-/// times the tolerance.
+/// times the tolerance. If that hardly has longer steps, as in a window of one step, it says nothing about their error.
+/// A replay with halved steps then takes its place.
 void measureIntegration(const Scenario& scenario, const ReplayPlan& plan, std::vector<WindowedReplay>& windows);
 constexpr double coarser = 100;
 
