@@ -250,7 +250,7 @@ void addPose(py::module_& module) {
 
 std::shared_ptr<ScenarioWithSolver> warnedOf(std::shared_ptr<ScenarioWithSolver> read) {
   const std::vector<std::string> lines = warnings(read->scenario);
-  const py::gil_scoped_acquire locked;
+  const Locked locked;
   for (const std::string& line : lines)
     if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 1) != 0) throw py::error_already_set();
   return read;
