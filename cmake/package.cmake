@@ -34,12 +34,18 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libeigen3-dev (>= 3.4), python3-numpy")  # for the headers; for the Python module
-# CPack finds the packages of installed libraries. Unpacked libraries are unknown to it, so their packages are named
-# here.
+# CPack finds the packages of installed libraries, and names any LAPACK; the program loads the reference's.
+if(reference_folders)
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS "liblapack3, libblas3")
+  string(REPLACE ";" ":" CPACK_URSULA_RPATH "${reference_folders}")
+endif()
+# Unpacked libraries are unknown to it, so their packages are named here.
 if(unpacked_libraries)
-  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_INSTALL_RPATH})
-  file(GLOB versioned ${CMAKE_INSTALL_RPATH}/libSimTKsimbody.so.*)
-  string(REGEX REPLACE ".*\\.so\\." "libsimbody" CPACK_DEBIAN_PACKAGE_DEPENDS "${versioned}")
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${simbodys_folder})
+  file(GLOB versioned ${simbodys_folder}/libSimTKsimbody.so.*)
+  string(REGEX REPLACE ".*\\.so\\." "libsimbody" simbodys_package "${versioned}")
+  list(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ${simbodys_package})
+  list(JOIN CPACK_DEBIAN_PACKAGE_DEPENDS ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
 endif()
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/without_rpath.cmake)
 include(CPack)

@@ -27,7 +27,8 @@ class ExactTrajectory : public Trajectory {
   const ExactTrajectory* exact() const override { return this; }
 };
 
-/// A trajectory from one kernel for any scalar: `Kernel<S>::at(const S& t) const -> Motion<S>`.
+/// A trajectory from one kernel for any scalar: `Kernel<S>::at(const S& t) const -> Motion<S>`. The kernel has a name
+/// of its own, not in an unnamed namespace: this class, which has one, would differ in each source, and GCC warns.
 template <template <class> class Kernel>
 class KernelTrajectory final : public ExactTrajectory {
  public:

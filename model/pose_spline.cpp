@@ -11,7 +11,6 @@
 #include "model/exact_trajectory.h"
 
 namespace ursula {
-namespace {
 
 /// Position and an unnormalised quaternion r = [w, x, y, z] form one curve in R⁷; the orientation is that of q = r /
 /// |r|. A spline of r has closed-form derivatives, unlike slerp-like splines on the sphere. With r̄ the
@@ -44,6 +43,8 @@ class PoseSplineKernel {
  private:
   QuinticHermite<S, 7> curve_;
 };
+
+namespace {
 
 using PoseKnot = CurvePoint<Real50, 7>;
 

@@ -127,10 +127,10 @@ std::string otherFrictionName(const std::string& key) {
   return "";
 }
 
-const ScenarioTable& scenarioTable(const std::string& name) {
+const ScenarioTable& scenarioTable(std::string_view name) {
   for (const ScenarioTable& each : scenarioTables())
     if (name == each.name) return each;
-  throw std::out_of_range("no table '" + name + "' in a scenario");
+  throw std::out_of_range("no table '" + std::string(name) + "' in a scenario");
 }
 
 }  // namespace ursula

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ursula {
@@ -80,7 +81,7 @@ const std::vector<ScenarioTable>& scenarioTables();
 std::string otherFrictionName(const std::string& key);
 
 /// Throws std::out_of_range for an unknown table.
-const ScenarioTable& scenarioTable(const std::string& name);
+const ScenarioTable& scenarioTable(std::string_view name);
 
 /// Returns the tables of the machine, a part of scenarioTables().
 std::vector<ScenarioTable> machineTables();

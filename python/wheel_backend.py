@@ -2,6 +2,9 @@
 
 Debian 12 has no backend for CMake. This one asks pip for nothing, so `pip install .` works without a network. It
 builds in build/, the folder of ./dev build; for another Python than the system's it uses a folder below.
+
+The metadata need no build. CMake configures before pip asks for them, so that a missing package ends pip at once, in a
+line. `pip -v` shows the build's progress.
 """
 
 import base64
@@ -18,15 +21,23 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 SUFFIX = sysconfig.get_config_var("EXT_SUFFIX")
+# NumPy may have loaded the system's; a library of the same name would then not be loaded.
+RENAMED = {name: name.replace(".so", "-ursula.so") for name in ("liblapack.so.3", "libblas.so.3")}
 # Every system has the C library and the compiler's own.
 OF_THE_SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+))\.so")
 
 
+SETUP = "run ./dev setup wheel first"
+
+
 def run(*command, **options):
-    """Returns the command's output; raises an error if it fails."""
+    """Returns the command's output; ends the program with its own message if it fails."""
     if not shutil.which(command[0]):
-        raise RuntimeError(f"the wheel needs {command[0]}; on Debian: ./dev setup wheel")
-    return subprocess.run([*map(str, command)], check=True, text=True, stdout=subprocess.PIPE, **options).stdout
+        sys.exit(f"ursula: no {command[0]} here: {SETUP}")
+    done = subprocess.run([*map(str, command)], text=True, **{"stdout": subprocess.PIPE, **options})
+    if done.returncode != 0:
+        sys.exit(done.stderr or f"ursula: {command[0]} failed; `pip -v` shows what it said")
+    return done.stdout
 
 
 def version():
@@ -47,15 +58,37 @@ def tag():
     return f"{python}-{python}-manylinux_{libc}_{os.uname().machine}"
 
 
-def built():
-    """Builds the module for this Python with CMake, and returns its folder."""
+def configured():
+    """Returns the build's folder for this Python, once CMake has found all that the module needs."""
+    for program in ("cmake", "ninja", "strip", "patchelf"):
+        run(program, "--version")
     systems = Path("/usr/bin/python3")
     same = systems.exists() and SUFFIX == run(systems, "-c", "import sysconfig as s; print(s.get_config_var('EXT_SUFFIX'))").strip()
     folder = ROOT / "build" if same else ROOT / "build" / SUFFIX.strip(".")
-    if not (folder / "build.ninja").exists():
-        of_python = [] if same else [f"-DPython_EXECUTABLE={sys.executable}"]
-        run("cmake", "--preset", "release", "-B", folder, "-DURSULA_TESTS=OFF", "-DURSULA_BENCH=OFF", *of_python, cwd=ROOT)
-    run("cmake", "--build", folder, "--target", "ursula_python")
+    ninja = folder / "build.ninja"
+    if has_module(ninja):
+        return folder
+    # A folder that was configured without pybind11 keeps its settings.
+    how = [folder] if ninja.exists() else ["--preset", "release", "-B", folder, "-DURSULA_TESTS=OFF", "-DURSULA_BENCH=OFF"]
+    of_python = [] if same else [f"-DPython_EXECUTABLE={sys.executable}"]
+    tried = subprocess.run(["cmake", *map(str, how), *of_python], cwd=ROOT, text=True, capture_output=True)
+    if tried.returncode != 0:
+        why = re.search(r"CMake Error[^\n]*\n+((?: +\S[^\n]*\n)+)", tried.stderr)
+        sys.exit(f"ursula: {' '.join(why[1].split()) if why else 'CMake cannot configure the build'}: {SETUP}")
+    print(tried.stdout)
+    if not has_module(ninja):
+        sys.exit(f"ursula: no pybind11 here, or no headers of Python: {SETUP}")
+    return folder
+
+
+def has_module(ninja):
+    return ninja.exists() and "build ursula_python:" in ninja.read_text()
+
+
+def built():
+    """Builds the module for this Python with CMake, and returns its folder."""
+    folder = configured()
+    run("cmake", "--build", folder, "--target", "ursula_python", stdout=None)
     return folder / "python" / "ursula"
 
 
@@ -64,7 +97,7 @@ def needed(library):
     lines = run("ldd", library).splitlines()
     missing = [line.strip() for line in lines if "not found" in line]
     if missing:
-        raise RuntimeError(f"{library}: {', '.join(missing)}")
+        sys.exit(f"ursula: {library}: {', '.join(missing)}")
     found = re.findall(r"^\s*(\S+) => (/\S+)", "\n".join(lines), re.MULTILINE)
     return {name: path for name, path in found if not OF_THE_SYSTEM.match(name)}
 
@@ -76,17 +109,29 @@ def laid_out(work):
     module = package / f"_ursula{SUFFIX}"
     (package / "lib").mkdir()
     for name, path in needed(module).items():
-        shutil.copy(path, package / "lib" / name)
+        shutil.copy(path, package / "lib" / RENAMED.get(name, name))
     for file in (module, *(package / "lib").iterdir()):
         os.chmod(file, 0o755)
         run("strip", "--strip-unneeded", file)
-        run("patchelf", "--set-rpath", "$ORIGIN/lib" if file == module else "$ORIGIN", file)
-    info = work / f"ursula-{version()}.dist-info"
+        soname = ["--set-soname", file.name] if file.name in RENAMED.values() else []
+        replaced = [each for pair in RENAMED.items() for each in ("--replace-needed", *pair)]
+        run("patchelf", "--set-rpath", "$ORIGIN/lib" if file == module else "$ORIGIN", *soname, *replaced, file)
+    return described(work)
+
+
+def described(folder):
+    """Makes the wheel's metadata in `folder`, and returns their own."""
+    info = Path(folder) / f"ursula-{version()}.dist-info"
     info.mkdir()
     (info / "METADATA").write_text(metadata())
     (info / "WHEEL").write_text(f"Wheel-Version: 1.0\nGenerator: ursula\nRoot-Is-Purelib: false\nTag: {tag()}\n")
     shutil.copy(ROOT / "LICENSE", info)
     return info
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    configured()
+    return described(metadata_directory).name
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):

@@ -4,8 +4,8 @@
 # The needs of each verb: COMMAND:PACKAGE, where the package is installed only if the command is missing, or a library's
 # package.
 declare -A needs=(
-  [program]='g++:g++ cmake:cmake ninja:ninja-build libeigen3-dev libcli11-dev libtomlplusplus-dev libkainjow-mustache-dev nlohmann-json3-dev libfmt-dev libxsimd-dev libtbb-dev libsqlite3-dev libtinyxml2-dev'
-  [test]='libgtest-dev libgmock-dev python3 python3-dev python3-numpy python3-pytest pybind11-dev python3-pip python3-venv patchelf:patchelf pkg-config:pkgconf rsvg-convert:librsvg2-bin octave-cli:octave node:nodejs npm:npm chromium:chromium sbatch:slurm-wlm munged:munge furo python3-myst-parser python3-sphinx'
+  [program]='g++:g++ cmake:cmake ninja:ninja-build libeigen3-dev libcli11-dev libtomlplusplus-dev libkainjow-mustache-dev nlohmann-json3-dev libfmt-dev libxsimd-dev libtbb-dev libsqlite3-dev libtinyxml2-dev liblapack3 libblas3'
+  [test]='libgtest-dev libgmock-dev python3 python3-dev python3-numpy python3-pytest pybind11-dev python3-pip python3-venv patchelf:patchelf pkg-config:pkgconf libopenblas0-pthread rsvg-convert:librsvg2-bin octave-cli:octave node:nodejs npm:npm chromium:chromium sbatch:slurm-wlm munged:munge furo python3-myst-parser python3-sphinx'
   [bench]='libbenchmark-dev'
   [format]='git:git clang-format:clang-format'
   [lint]='git:git clang-format:clang-format shellcheck:shellcheck python3:python3'
@@ -104,7 +104,6 @@ setup_unpacked() {
     elif [[ $package == libsimbody-dev ]]; then
       # Simbody's libraries bring LAPACK themselves. To name LAPACK, too, would require its own package of headers.
       sed -i -E 's#/[^;"]*/lib(blas|lapack)\.so;##g' .deps/usr/lib/*/cmake/simbody/SimbodyTargets-*.cmake
-      install_packages liblapack3
     fi
   done
 }

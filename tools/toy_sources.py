@@ -48,7 +48,6 @@ TRAJECTORY = Toy(
 #include "model/trajectories/trajectory_kinds.h"
 
 namespace ursula {
-namespace {
 
 /// Stays at a position, upright.
 template <class S>
@@ -67,6 +66,8 @@ class ToyKernel {
  private:
   Vector3d position_;
 };
+
+namespace {
 
 std::unique_ptr<Trajectory> makeToy(const Vector3d& position, double duration) {
   return std::make_unique<KernelTrajectory<ToyKernel>>(

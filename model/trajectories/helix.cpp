@@ -13,7 +13,6 @@
 #include "model/trajectory.h"
 
 namespace ursula {
-namespace {
 
 /// The helix's parameter, its rise from the start and its first two rates at one instant.
 template <class S>
@@ -119,6 +118,8 @@ class HelixKernel {
   Vector3<S> start_;  ///< p at β₀
   std::array<S, 6> coefficients_;
 };
+
+namespace {
 
 void require(bool holds, const char* key, double value, const char* bound) {
   if (!holds) throw InvalidParameter(std::string("trajectory.") + key, fmt::format("{}", value), bound);

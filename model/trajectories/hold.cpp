@@ -12,7 +12,6 @@
 #include "model/trajectories/trajectory_kinds.h"
 
 namespace ursula {
-namespace {
 
 template <class S>
 class HoldKernel {
@@ -32,8 +31,6 @@ class HoldKernel {
  private:
   Motion<S> pose_;
 };
-
-}  // namespace
 
 std::unique_ptr<Trajectory> makeHold(const Vector3d& position, const Eigen::Vector4d& orientation, double duration) {
   if (!position.allFinite()) throw InvalidParameter("trajectory.position", "a non-finite entry", "finite numbers");

@@ -4,6 +4,7 @@
 
 #include "base/provenance.h"
 #include "base/sha1.h"
+#include "simbody/lapack_in_use.h"
 #include "validation/findings/findings.h"
 #include "validation/replay/replay.h"
 #include "validation/verdict/effort_words.h"
@@ -119,7 +120,8 @@ ValidationResult emptyResult(const Scenario& scenario, const JudgedSubject& subj
                        {"build type", build.build_type},
                        {"Eigen", build.eigen},
                        {"Boost", build.boost},
-                       {"Simbody", build.simbody}};
+                       {"Simbody", build.simbody},
+                       {"LAPACK", lapackInUse()}};
   for (auto& row : partProvenance()) result.provenance.push_back(std::move(row));
   const std::vector<std::pair<std::string, std::string>> asked = {
                        {"trajectory", scenario.trajectory->kind()},

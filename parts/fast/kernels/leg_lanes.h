@@ -75,7 +75,14 @@ class LegLanes {
     for (int lane = 0; lane < lanes; ++lane) keep[lane] = lane < n ? 1.0 : 0.0;
     return select(P(P::Batch::load_aligned(keep)) > P(0.0), value, P(0.0));
   }
-  static double sumOf(const P& value) { return xsimd::hadd(value.v); }
+  /// Adds the upper half of the lanes to the lower until one is left.
+  static double sumOf(const P& value) {
+    alignas(64) double sum[lanes];
+    value.v.store_aligned(sum);
+    for (int half = lanes / 2; half > 0; half /= 2)
+      for (int lane = 0; lane < half; ++lane) sum[lane] += sum[lane + half];
+    return sum[0];
+  }
 
   __attribute__((flatten)) bool inverseLoads(const double* numbers, LegSums& out) const {
     const Motion<P> motion = motionOf(numbers);
