@@ -70,6 +70,7 @@ def configured():
         return folder
     # A folder that was configured without pybind11 keeps its settings.
     how = [folder] if ninja.exists() else ["--preset", "release", "-B", folder, "-DURSULA_TESTS=OFF", "-DURSULA_BENCH=OFF"]
+    how.append("-DURSULA_PARTS=all")
     of_python = [] if same else [f"-DPython_EXECUTABLE={sys.executable}"]
     tried = subprocess.run(["cmake", *map(str, how), *of_python], cwd=ROOT, text=True, capture_output=True)
     if tried.returncode != 0:

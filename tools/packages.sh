@@ -4,8 +4,11 @@
 # The needs of each verb: COMMAND:PACKAGE, where the package is installed only if the command is missing, or a library's
 # package.
 declare -A needs=(
-  [program]='g++:g++ cmake:cmake ninja:ninja-build libeigen3-dev libcli11-dev libtomlplusplus-dev libkainjow-mustache-dev nlohmann-json3-dev libfmt-dev libxsimd-dev libtbb-dev libsqlite3-dev libtinyxml2-dev liblapack3 libblas3'
-  [test]='libgtest-dev libgmock-dev python3 python3-dev python3-numpy python3-pytest pybind11-dev python3-pip python3-venv patchelf:patchelf pkg-config:pkgconf libopenblas0-pthread rsvg-convert:librsvg2-bin octave-cli:octave node:nodejs npm:npm chromium:chromium sbatch:slurm-wlm munged:munge furo python3-myst-parser python3-sphinx'
+  [core]='g++:g++ cmake:cmake ninja:ninja-build libeigen3-dev libcli11-dev libtomlplusplus-dev libkainjow-mustache-dev nlohmann-json3-dev libfmt-dev liblapack3 libblas3'
+  [parts]='libxsimd-dev libtbb-dev libsqlite3-dev libtinyxml2-dev'
+  [test]='libgtest-dev libgmock-dev python3 python3-dev python3-numpy python3-pytest pybind11-dev libopenblas0-pthread rsvg-convert:librsvg2-bin'
+  [heavy]='python3-pip python3-venv patchelf:patchelf pkg-config:pkgconf octave-cli:octave node:nodejs npm:npm chromium:chromium sbatch:slurm-wlm munged:munge furo python3-myst-parser python3-sphinx'
+  [core_test]='libgtest-dev libgmock-dev'
   [bench]='libbenchmark-dev'
   [format]='git:git clang-format:clang-format'
   [lint]='git:git clang-format:clang-format shellcheck:shellcheck python3:python3'
@@ -24,7 +27,7 @@ declare -A needs=(
 # first configuration; a peer of the benchmarks; the readers of Gazebo and ROS, which check exported models; DART
 # for `ursula engines`.
 declare -A optional=(
-  [program]='libmujoco-dev'
+  [parts]='libmujoco-dev'
   [test]='libsdformat-dev liburdfdom-dev libdart-dev'
   [bench]='libmujoco-dev libdart-dev'
 )
@@ -110,7 +113,8 @@ setup_unpacked() {
 
 setup() {
   local verb wanted packages=()
-  for verb in program "$@"; do
+  [[ ${parts:-all} != all ]] || set -- parts "$@"
+  for verb in core "$@"; do
     read -ra wanted <<<"${needs[$verb]:-}"
     mapfile -t -O "${#packages[@]}" packages < <(missing "${wanted[@]}")
   done
