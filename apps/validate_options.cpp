@@ -13,8 +13,8 @@
 #include "apps/verbs.h"
 #include "base/text.h"
 #include "model/torque_names.h"
-#include "report/text/terminal.h"
 #include "report/files/written_files.h"
+#include "report/text/terminal.h"
 
 namespace ursula {
 

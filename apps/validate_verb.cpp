@@ -9,6 +9,7 @@
 
 #include "apps/output.h"
 #include "apps/progress.h"
+#include "apps/suite/suite.h"
 #include "apps/validate_options.h"
 #include "apps/verbs.h"
 #include "base/output_folder.h"
@@ -16,7 +17,6 @@
 #include "model/scenario_files.h"
 #include "report/files/report.h"
 #include "report/files/run.h"
-#include "apps/suite/suite.h"
 #include "validation/outside/external_solver.h"
 #include "validation/validate.h"
 

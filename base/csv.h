@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/errors.h"
 #include "base/csv_dialect.h"
+#include "base/errors.h"
 
 namespace ursula {
 

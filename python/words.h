@@ -38,7 +38,8 @@ out. The scenario's `assumptions` lists the assumptions made; warnings.warn() sa
 closure that is open by more than 1e-3 of the machine's size. Raises ScenarioError.)";
 
 constexpr const char* assumptions =
-    "The assumptions of import_model(): a list of dicts with what, where, size, unit and warning, warnings first. Empty "
+    "The assumptions of import_model(): a list of dicts with what, where, size, unit and warning, warnings first. "
+    "Empty "
     "for other scenarios.";
 
 constexpr const char* to_dict =

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "model/open_tree.h"
 #include "model/joint_variables.h"
 #include "model/load.h"
 #include "model/manipulator.h"
 #include "model/motion.h"
+#include "model/open_tree.h"
 
 namespace ursula {
 

@@ -11,8 +11,8 @@
 
 #include <Eigen/LU>
 
-#include "simbody/simbody_loop.h"
 #include "model/legs/leg_chain.h"
+#include "simbody/simbody_loop.h"
 
 namespace ursula {
 

@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "simbody/simbody_loop_internal.h"
 #include "model/legs/leg_type.h"
+#include "simbody/simbody_loop_internal.h"
 
 namespace ursula {
 namespace {

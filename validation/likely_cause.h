@@ -15,8 +15,8 @@ struct WrongSolver {
   const Evidence& evidence;  ///< of the solver; if time ran out, it is asked no further
 };
 
-/// Adds the likely cause of wrong efforts to the result of a failure. `scenario` and `efforts` are in SI, with positions
-/// relative to the natural origin. `solver` is null for efforts of a file.
+/// Adds the likely cause of wrong efforts to the result of a failure. `scenario` and `efforts` are in SI, with
+/// positions relative to the natural origin. `solver` is null for efforts of a file.
 using AddLikelyCause = void(const Scenario& scenario, const TorqueFile& efforts, const WrongSolver* solver,
                             ValidationResult& result);
 

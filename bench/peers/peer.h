@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "model/open_tree.h"
 #include "model/joint_variables.h"
 #include "model/manipulator.h"
+#include "model/open_tree.h"
 
 namespace ursula::bench {
 

@@ -3,5 +3,5 @@
 /// \file
 /// Import of foreign models: importModel() reads a file in SDF, MJCF or URDF.
 
-#include "parts/exchange/import.h"
 #include "include/ursula/abi.h"
+#include "parts/exchange/import.h"

@@ -4,8 +4,8 @@
 /// Functions beside validation: simulate(), warnings() and picture() of a scenario, mapBlocks(), compare().
 
 #include "include/ursula/abi.h"
-#include "validation/check_scenario/check_scenario.h"
 #include "parts/compare/compare.h"
 #include "parts/map/pose_map.h"
 #include "parts/simulate/simulate.h"
+#include "validation/check_scenario/check_scenario.h"
 #include "validation/subject/motion_check.h"

@@ -93,8 +93,7 @@ struct Rus : ByRows {
     omega_2_dot -= (rate(2) * (at.rate(0) + at.rate(1))) * at.x_2.cross(leg.u);
     LinkMotions<S> out{turning<with_rates>(omega_1, omega_1_dot, at.arm_1, Vector3<S>(now_1.cross(at.arm_1))),
                        turning<with_rates>(omega_2, omega_2_dot, at.arm_2, Vector3<S>(now_2.cross(at.arm_2)))};
-    const LinkMotion<S> R_ =
-        turning<with_rates>(omega_1, omega_1_dot, at.O_2, Vector3<S>(now_1.cross(at.O_2)));
+    const LinkMotion<S> R_ = turning<with_rates>(omega_1, omega_1_dot, at.O_2, Vector3<S>(now_1.cross(at.O_2)));
     out.distal.c_dot += R_.c_dot;
     out.distal.c_ddot += R_.c_ddot;
     return out;

@@ -93,7 +93,7 @@ struct Urs {
     const Distance<S> a_ii = distance(leg, out);
     const S lever = leg.s * out.sin_sum, lever_dot = eta(leg, out);
     const S ls_sine = leg.l * leg.s * out.sine[2], ls_sine_dot = leg.l * leg.s * out.cosine[2] * out.rate(2);
-    out.row[0].A_dot = a_ii.rate;  // (paper, eq. 26)
+    out.row[0].A_dot = a_ii.rate;            // (paper, eq. 26)
     out.row[0].n_dot = out.rate(0) * out.z;  // Q̂ᵢ Ωᵢ Q̂ᵢᵀ xᵢ with (12)
     out.row[1].A_dot = a_ii.rate * ls_sine + a_ii.value * ls_sine_dot;
     out.row[1].n_dot = ls_sine_dot * leg.u - lever_dot * out.AB - lever * out.v_B;
@@ -106,9 +106,9 @@ struct Urs {
   static Vector3<S> rates(const LegModel<S>& leg, const LegState<S>& at, const Vector3<S>& v_B) {
     const Vector3<S> h(at.x.dot(v_B), leg.u.dot(v_B), at.z.dot(v_B));  // (paper, eq. 11b)
     const S lever = leg.s * at.sin_sum, away = lever - leg.l * at.sine[1];
-    const S theta = at.AB.dot(v_B) / (leg.l * leg.s * at.sine[2]);            // (paper, eqs. 4b, 6): q q̇ = AB · v_B
-    const S phi = h.x() / away;                                               // (paper, eq. 15a)
-    return {phi, (h.y() - theta * lever) / away, theta};                      // (paper, eq. 15b)
+    const S theta = at.AB.dot(v_B) / (leg.l * leg.s * at.sine[2]);  // (paper, eqs. 4b, 6): q q̇ = AB · v_B
+    const S phi = h.x() / away;                                     // (paper, eq. 15a)
+    return {phi, (h.y() - theta * lever) / away, theta};            // (paper, eq. 15b)
   }
 
   /// φ̈, ψ̈, θ̈ for an acceleration of Bᵢ. The frame moves as `at` does; `rate`, `v_B` and `a_B` may be those of a
@@ -190,12 +190,12 @@ struct Urs {
   static LinkMotion<S> inPlane(const Turn<S>& F, const S& chi_dot, const S& chi_ddot, const Direction<S>& c) {
     LinkMotion<S> out;
     out.omega = Vector3<S>(chi_dot, -F.rate, S(0));  // (paper, eq. 16)
-    out.c_dot = turned(F.rate, c.at) + c.dot;              // (paper, eqs. 41a, 41b)
+    out.c_dot = turned(F.rate, c.at) + c.dot;        // (paper, eqs. 41a, 41b)
     if constexpr (!with_rates) return out;
     out.omega_dot = Vector3<S>(chi_ddot, -F.acceleration, F.now * chi_dot);  // (paper, eqs. 17a, 17b)
-    out.c_ddot = turned(F.acceleration, c.at) + c.ddot;                                // (paper, eqs. 43a, 43b)
-    out.c_ddot += turned(F.now, turned(F.rate, c.at));        // Ω²
-    out.c_ddot += turned(F.rate, c.now) + turned(F.now, c.dot);  // 2Ω
+    out.c_ddot = turned(F.acceleration, c.at) + c.ddot;                      // (paper, eqs. 43a, 43b)
+    out.c_ddot += turned(F.now, turned(F.rate, c.at));                       // Ω²
+    out.c_ddot += turned(F.rate, c.now) + turned(F.now, c.dot);              // 2Ω
     return out;
   }
 };

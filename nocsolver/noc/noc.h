@@ -111,7 +111,8 @@ class Noc {
 
   /// D of the velocity constraints D t = 0 of (33), 12 rows per leg and 78 columns. It holds each joint's blocked
   /// directions, from axes and points only. Needs bodyMotions in `work`. Allocates.
-  virtual Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> D(const Motion<S>& motion, const NocWorkspace<S>& work) const;
+  virtual Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> D(const Motion<S>& motion,
+                                                             const NocWorkspace<S>& work) const;
 
   /// Reactions at the joints of all legs under `efforts`. A leg's force on the platform follows from its part of (37),
   /// the others body by body from (28). Needs the results of inverseDynamics.
@@ -124,8 +125,8 @@ class Noc {
   using Rates = Eigen::Matrix<S, 3, 6>;    ///< of a leg's joints, one column per column of T
   using Columns = Eigen::Matrix<S, 6, 3>;  ///< twists of a link, one column per unit joint rate
 
-  // A leg's formulas, by its kind (legs/). `at` moves as in the motion; rates and accelerations may be those of a column
-  // of T.
+  // A leg's formulas, by its kind (legs/). `at` moves as in the motion; rates and accelerations may be those of a
+  // column of T.
   virtual void displacement(int leg, const S& t, LegState<S>& out) const;  ///< from AB in `out`
   virtual void rows(int leg, LegState<S>& out) const;
   virtual void rowRates(int leg, LegState<S>& out) const;

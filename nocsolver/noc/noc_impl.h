@@ -94,8 +94,7 @@ BodyVector<S> Noc<S>::gravityWrench() const {
 
 /// Adds an effort's wrench at joint j of leg i to the outboard link; the inboard link, or the base, takes the reaction.
 template <class S>
-void Noc<S>::addJointWrench(const NocWorkspace<S>& work, int i, int j, const S& effort,
-                                      BodyVector<S>& w) const {
+void Noc<S>::addJointWrench(const NocWorkspace<S>& work, int i, int j, const S& effort, BodyVector<S>& w) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   const LegState<S>& at = work.legs[legs::at(i)];
   const LegKindRow& row = rowOf(leg.kind);
@@ -191,8 +190,7 @@ Vector6<S> Noc<S>::rotorEfforts(const NocWorkspace<S>& work) const {
 // --- inverse and direct dynamics ------------------------------------------------------------------------------------
 
 template <class S>
-Vector6<S> Noc<S>::inverseDynamics(const Motion<S>& motion, NocWorkspace<S>& work,
-                                             const Vector6<S>& load) const {
+Vector6<S> Noc<S>::inverseDynamics(const Motion<S>& motion, NocWorkspace<S>& work, const Vector6<S>& load) const {
   inverseKinematics(motion, work);
   jacobians(motion, work);
   setBodies(motion, work);
@@ -228,8 +226,7 @@ Matrix6<S> Noc<S>::C(const NocWorkspace<S>& work) const {
   TwistShaping<S> sum = massTimes(work.I_B, work.T_rate);
   const TwistShaping<S> MT = massTimes(work.I_B, work.T);
   for (int b = 0; b < body_count; ++b)
-    for (int m = 0; m < motor_count; ++m)
-      legs::block(sum, b).col(m) += W(b, work, legs::block(MT, b).col(m));
+    for (int m = 0; m < motor_count; ++m) legs::block(sum, b).col(m) += W(b, work, legs::block(MT, b).col(m));
   return work.T.transpose().lazyProduct(sum);  // (paper, eq. 34)
 }
 
@@ -247,7 +244,7 @@ Vector6<S> Noc<S>::tauD(const NocWorkspace<S>& work) const {
 
 template <class S>
 Vector6<S> Noc<S>::directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, NocWorkspace<S>& work,
-                                            const Vector6<S>& load) const {
+                                  const Vector6<S>& load) const {
   Motion<S> unaccelerated = motion;
   unaccelerated.omega_dot.setZero();
   unaccelerated.p_ddot.setZero();

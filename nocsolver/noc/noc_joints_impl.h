@@ -86,8 +86,7 @@ Vector3<S> Noc<S>::sphericalPoint(const Motion<S>& motion, int /*leg*/, const Le
 }
 
 template <class S>
-Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> Noc<S>::D(const Motion<S>& motion,
-                                                                     const NocWorkspace<S>& work) const {
+Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> Noc<S>::D(const Motion<S>& motion, const NocWorkspace<S>& work) const {
   using Rows = legs::ConstraintRows<S>;
   const typename Rows::Body base{-1, Vector3<S>::Zero()}, platform{6 * legs::platform, work.bodies.back().c};
   Rows rows(12 * machine_.legs_in_all);
@@ -106,16 +105,15 @@ Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> Noc<S>::D(const Motion<S>& moti
 }
 
 template <class S>
-BodyVector<S> Noc<S>::constraintWrench(const Motion<S>& motion, const Vector6<S>& efforts,
-                                                 const NocWorkspace<S>& work, const Vector6<S>& load) const {
+BodyVector<S> Noc<S>::constraintWrench(const Motion<S>& motion, const Vector6<S>& efforts, const NocWorkspace<S>& work,
+                                       const Vector6<S>& load) const {
   const Vector6<S> on_links = efforts - rotorEfforts(work);
   const BodyVector<S> w_W = actuatorWrench(work, on_links) + gravityWrench() + dissipativeWrench(work);
   return -inertiaWrench(work) - w_W - loadWrench(motion, load);  // (paper, eq. 31)
 }
 
 template <class S>
-Reactions Noc<S>::reactions(const Motion<S>& motion, const Vector6<S>& efforts,
-                                      const NocWorkspace<S>& work) const {
+Reactions Noc<S>::reactions(const Motion<S>& motion, const Vector6<S>& efforts, const NocWorkspace<S>& work) const {
   const Vector6<S> on_links = efforts - rotorEfforts(work);
   const BodyVector<S> moving = -inertiaWrench(work) - gravityWrench(), w_d = dissipativeWrench(work);
   Reactions out;

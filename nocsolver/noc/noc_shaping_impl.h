@@ -120,8 +120,7 @@ typename Noc<S>::UnitTwists Noc<S>::unitTwists(int i, const LegState<S>& at, boo
 
 /// Rates of leg i's joints for the platform twists in the columns of `T_P`; linear in the velocity of Bᵢ.
 template <class S>
-typename Noc<S>::Rates Noc<S>::ratesForTwists(int i, const LegState<S>& at,
-                                                                  const Matrix6<S>& T_P) const {
+typename Noc<S>::Rates Noc<S>::ratesForTwists(int i, const LegState<S>& at, const Matrix6<S>& T_P) const {
   Matrix3<S> by_v_B;
   for (int k = 0; k < 3; ++k) by_v_B.col(k) = jointRates(i, at, Vector3<S>(Vector3<S>::Unit(k)));
   Rates v_B;
@@ -131,8 +130,7 @@ typename Noc<S>::Rates Noc<S>::ratesForTwists(int i, const LegState<S>& at,
 
 /// Rates of leg i's joints for q̇ = e_m in column m: δ_m of (48) for the leg.
 template <class S>
-typename Noc<S>::Rates Noc<S>::columnRates(int i, const LegState<S>& at,
-                                                               const Matrix6<S>& T_P) const {
+typename Noc<S>::Rates Noc<S>::columnRates(int i, const LegState<S>& at, const Matrix6<S>& T_P) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   Rates out = ratesForTwists(i, at, T_P);
   for (int j = 0; j < 3; ++j) {
@@ -144,9 +142,8 @@ typename Noc<S>::Rates Noc<S>::columnRates(int i, const LegState<S>& at,
 
 /// The rates of columnRates; a column's own unit rate is constant, so its rate is zero.
 template <class S>
-typename Noc<S>::Rates Noc<S>::columnAccelerations(const Motion<S>& motion, int i,
-                                                                       const NocWorkspace<S>& work,
-                                                                       const Rates& rates) const {
+typename Noc<S>::Rates Noc<S>::columnAccelerations(const Motion<S>& motion, int i, const NocWorkspace<S>& work,
+                                                   const Rates& rates) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   const LegState<S>& at = work.legs[legs::at(i)];
   Rates out;
@@ -161,7 +158,7 @@ typename Noc<S>::Rates Noc<S>::columnAccelerations(const Motion<S>& motion, int 
 /// The rate of the velocity that column m gives to the platform's point at `arm` from P.
 template <class S>
 Vector3<S> Noc<S>::columnAcceleration(const Motion<S>& motion, const NocWorkspace<S>& work, int m,
-                                                const Vector3<S>& arm) const {
+                                      const Vector3<S>& arm) const {
   const Vector3<S> omega = work.T_P.col(m).template head<3>();
   return legs::velocityOf<S>(work.T_P_rate.col(m), arm) + omega.cross(motion.omega.cross(arm));
 }

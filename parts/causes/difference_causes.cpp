@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "validation/limits/conditioning.h"
 #include "parts/causes/tried_causes.h"
+#include "validation/limits/conditioning.h"
 
 namespace ursula {
 namespace {

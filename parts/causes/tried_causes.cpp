@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "nocsolver/errors.h"
-#include "validation/limits/conditioning.h"
 #include "parts/causes/machine_slopes.h"
 #include "parts/causes/tied_parameters.h"
+#include "validation/limits/conditioning.h"
 
 namespace ursula {
 namespace {

@@ -9,12 +9,12 @@
 #include <tuple>
 
 #include "base/output_folder.h"
+#include "report/files/written_files.h"
 #include "report/page/html_template.h"
 #include "report/page/page.h"
 #include "report/page/plots.h"
-#include "report/text/quantity.h"
 #include "report/page/sections.h"
-#include "report/files/written_files.h"
+#include "report/text/quantity.h"
 
 namespace ursula {
 

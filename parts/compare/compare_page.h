@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "report/page/plots.h"
 #include "parts/compare/compare.h"
+#include "report/page/plots.h"
 
 namespace ursula {
 

@@ -9,8 +9,8 @@
 #include "apps/validate_options.h"
 #include "apps/verbs.h"
 #include "base/text.h"
-#include "report/files/written_files.h"
 #include "parts/compare/compare_page.h"
+#include "report/files/written_files.h"
 
 namespace ursula {
 namespace {

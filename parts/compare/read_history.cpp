@@ -1,7 +1,7 @@
 #include "base/csv.h"
 #include "base/text.h"
-#include "report/files/run.h"
 #include "parts/compare/compare.h"
+#include "report/files/run.h"
 
 namespace ursula {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "model/machine_numbers.h"
 #include "nocsolver/errors.h"
+#include "nocsolver/legs/leg_model_impl.h"
 #include "parts/fast/kernels/leg_kernels.h"
 #include "parts/fast/kernels/plane_dynamics.h"
-#include "nocsolver/legs/leg_model_impl.h"
 
 namespace ursula {
 namespace {

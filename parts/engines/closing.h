@@ -1,7 +1,7 @@
 #pragma once
 
-#include "model/open_tree.h"
 #include "model/manipulator.h"
+#include "model/open_tree.h"
 
 namespace ursula {
 

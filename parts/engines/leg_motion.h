@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "model/open_tree.h"
 #include "model/legs/leg_chain.h"
 #include "model/load.h"
+#include "model/open_tree.h"
 
 namespace ursula {
 

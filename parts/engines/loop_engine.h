@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "model/open_tree.h"
 #include "model/load.h"
 #include "model/manipulator.h"
+#include "model/open_tree.h"
 
 namespace ursula {
 

@@ -2,9 +2,9 @@
 
 #include <stdexcept>
 
-#include "parts/engines/voting_engines.h"
 #include "parts/engines/loop_engine.h"
 #include "parts/engines/mujoco/mujoco_loop.h"
+#include "parts/engines/voting_engines.h"
 #include "simbody/simbody_loop.h"
 
 namespace ursula {

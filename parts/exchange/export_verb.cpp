@@ -7,9 +7,9 @@
 #include "apps/choice.h"
 #include "apps/output.h"
 #include "apps/verbs.h"
+#include "model/scenario_files.h"
 #include "parts/exchange/leg_pose.h"
 #include "parts/exchange/write/export.h"
-#include "model/scenario_files.h"
 
 namespace ursula {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "base/text.h"
 #include "base/text_source.h"
+#include "model/scenario.h"
 #include "parts/exchange/read/xml.h"
 #include "parts/exchange/recognise/machine.h"
-#include "model/scenario.h"
 
 namespace ursula::exchange {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "nocsolver/errors.h"
-#include "parts/fast/fast_dynamics.h"
 #include "nocsolver/noc/noc.h"
+#include "parts/fast/fast_dynamics.h"
 
 namespace ursula {
 

@@ -141,10 +141,11 @@ void LogGrid::note(MeasuredLog& log, bool even, const std::string& first) const 
                                         end_t_, left_out_, coarsest)});
   const std::size_t used = count_ - left_out_;
   if (const std::size_t filled = rows_ - (used - lacking_); filled > 0)
-    log.findings.push_back({"drop_outs", -1, static_cast<double>(filled), "rows",
-                            fmt::format("of {} rows {} are missing (gaps: {}) and {} have empty or NaN cells{}; up to {} "
-                                        "in a row are filled by a polynomial, what is near longer gaps is left out",
-                                        rows_, rows_ - used, gaps_, lacking_, first, most_filled_rows)});
+    log.findings.push_back(
+        {"drop_outs", -1, static_cast<double>(filled), "rows",
+         fmt::format("of {} rows {} are missing (gaps: {}) and {} have empty or NaN cells{}; up to {} "
+                     "in a row are filled by a polynomial, what is near longer gaps is left out",
+                     rows_, rows_ - used, gaps_, lacking_, first, most_filled_rows)});
   if (const double jitter = std::sqrt(jitter_ / static_cast<double>(rows_)); jitter > 0.05)
     log.findings.push_back(
         {"jitter", -1, jitter, "steps",

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parts/identify/identify.h"
 #include "report/page/html_template.h"
 #include "report/page/page.h"
 #include "report/page/plots.h"
 #include "report/text/text.h"
-#include "parts/identify/identify.h"
 
 namespace ursula {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "model/scenario.h"
-#include "parts/poses/direct_kinematics.h"
 #include "parts/identify/signals.h"
+#include "parts/poses/direct_kinematics.h"
 
 namespace ursula::identification {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <regex>
 
-#include "validation/verdict/worst_share.h"
 #include "model/torque_names.h"
+#include "validation/verdict/worst_share.h"
 
 namespace ursula::identification {
 namespace {

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.h"
-#include "report/text/text.h"
 #include "parts/identify/identify.h"
+#include "report/text/text.h"
 
 namespace ursula {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "parts/map/pose_map.h"
 #include "report/page/heat_map.h"
 #include "report/text/quantity.h"
 #include "report/text/text.h"
-#include "parts/map/pose_map.h"
 
 namespace ursula {
 namespace {

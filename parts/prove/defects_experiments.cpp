@@ -5,9 +5,9 @@
 
 #include <Eigen/Geometry>
 
-#include "validation/limits/further_engines.h"
 #include "parts/prove/defects.h"
 #include "parts/prove/prove.h"
+#include "validation/limits/further_engines.h"
 
 namespace ursula {
 namespace {

@@ -11,9 +11,9 @@
 #include "base/start_threads.h"
 #include "model/instants.h"
 #include "nocsolver/errors.h"
-#include "report/files/report.h"
 #include "parts/prove/defects.h"
 #include "parts/random/random_scenario.h"
+#include "report/files/report.h"
 #include "validation/samples/pointwise.h"
 #include "validation/validate.h"
 

@@ -7,13 +7,13 @@
 
 #include "base/errors.h"
 #include "base/start_threads.h"
-#include "validation/limits/further_engines.h"
 #include "model/check_catalogue.h"
 #include "nocsolver/errors.h"
 #include "parts/prove/defects.h"
 #include "parts/prove/effect.h"
 #include "parts/prove/prove.h"
 #include "validation/checks/judges.h"
+#include "validation/limits/further_engines.h"
 #include "validation/validate.h"
 
 namespace ursula {

@@ -8,8 +8,8 @@
 #include "model/check_catalogue.h"
 #include "report/page/html_template.h"
 #include "report/page/page.h"
-#include "report/text/quantity.h"
 #include "report/page/sections.h"
+#include "report/text/quantity.h"
 
 namespace ursula {
 

@@ -2,8 +2,8 @@
 
 #include "apps/usage.h"
 #include "apps/verbs.h"
-#include "report/text/result_facts.h"
 #include "parts/scenario_docs/scenario_docs.h"
+#include "report/text/result_facts.h"
 
 namespace ursula {
 namespace {

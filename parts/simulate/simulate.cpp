@@ -10,12 +10,12 @@
 #include <stdexcept>
 
 #include "base/csv.h"
-#include "simbody/simbody_loop.h"
 #include "model/instants.h"
 #include "model/legs/leg_type.h"
 #include "nocsolver/errors.h"
 #include "nocsolver/noc/noc.h"
 #include "parts/fast/solver.h"
+#include "simbody/simbody_loop.h"
 #include "validation/subject/leg_points.h"
 #include "validation/subject/subject.h"
 #include "validation/subject/torque_spline.h"

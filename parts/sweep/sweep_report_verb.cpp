@@ -3,10 +3,10 @@
 #include <memory>
 
 #include "apps/output.h"
-#include "parts/sweep/sweep_verbs.h"
 #include "apps/verbs.h"
 #include "base/output_file.h"
 #include "parts/sweep/report/sweep_outputs.h"
+#include "parts/sweep/sweep_verbs.h"
 
 namespace ursula {
 namespace {

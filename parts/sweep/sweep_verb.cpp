@@ -8,10 +8,10 @@
 
 #include "apps/output.h"
 #include "apps/progress.h"
-#include "parts/sweep/sweep_verbs.h"
 #include "apps/verbs.h"
 #include "parts/sweep/run.h"
 #include "parts/sweep/slurm.h"
+#include "parts/sweep/sweep_verbs.h"
 
 namespace ursula {
 namespace {

@@ -8,13 +8,13 @@
 
 #include "apps/output.h"
 #include "apps/progress.h"
-#include "parts/sweep/sweep_verbs.h"
 #include "apps/verbs.h"
 #include "base/child_process.h"
 #include "base/output_file.h"
 #include "base/text.h"
 #include "parts/sweep/merge.h"
 #include "parts/sweep/slurm.h"
+#include "parts/sweep/sweep_verbs.h"
 
 namespace ursula {
 namespace {

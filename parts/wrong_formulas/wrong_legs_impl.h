@@ -44,8 +44,7 @@ void rateUrs(const LegModel<S>& leg, const LegState<S>& at, const Vector3<S>& v_
   using std::atan2;
   const S lever = leg.s * at.sin_sum, away = lever - leg.l * at.sine[1];
   if (errors.has(FormulaError::eq15a)) rate(0) = at.x.dot(v_B) / lever;
-  if (errors.has(FormulaError::eq15b))
-    rate(1) = (leg.u.dot(v_B) - atan2(at.sine[2], at.cosine[2]) * lever) / away;
+  if (errors.has(FormulaError::eq15b)) rate(1) = (leg.u.dot(v_B) - atan2(at.sine[2], at.cosine[2]) * lever) / away;
 }
 
 /// (4c), (19a), (19b) as printed.
@@ -111,17 +110,14 @@ template <class S>
 void linksOf(legs::Urs, const LegModel<S>& leg, const LegState<S>& at, const Vector3<S>& rate,
              const Vector3<S>& acceleration, const WithFormulaErrors& errors, bool with_rates, LinkMotions<S>& out) {
   const S sum = rate(1) + rate(2), sum_now = at.rate(1) + at.rate(2), sum_dot = acceleration(1) + acceleration(2);
-  const auto along_e = [&](const S& size) {
-    return inPlane<S>(at, at.e, size, at.rate(1), rate(1), acceleration(1));
-  };
+  const auto along_e = [&](const S& size) { return inPlane<S>(at, at.e, size, at.rate(1), rate(1), acceleration(1)); };
   const InPlane<S> elbow = along_e(leg.l), s = inPlane<S>(at, at.along, leg.sigma, sum_now, sum, sum_dot);
   InPlane<S> d = {elbow.at + s.at, elbow.now + s.now, elbow.dot + s.dot, elbow.ddot + s.ddot};
   if (errors.has(FormulaError::drop_link_coupling)) {
     d = {elbow.at + s.at, s.now, s.dot, s.ddot};
     out.distal.c_dot -= elbow.dot;
     if (with_rates)
-      out.distal.c_ddot -=
-          elbow.ddot + turned<S>(leg, rate(0), elbow.now) + turned<S>(leg, at.rate(0), elbow.dot);
+      out.distal.c_ddot -= elbow.ddot + turned<S>(leg, rate(0), elbow.now) + turned<S>(leg, at.rate(0), elbow.dot);
   }
   moveUrs(leg, at, rate, acceleration, along_e(leg.rho), errors, with_rates, out.proximal);
   moveUrs(leg, at, rate, acceleration, d, errors, with_rates, out.distal);
@@ -139,7 +135,8 @@ template <class S>
 void linksOf(legs::Ups, const LegModel<S>& leg, const LegState<S>& at, const Vector3<S>& rate,
              const Vector3<S>& acceleration, const WithFormulaErrors& errors, bool with_rates, LinkMotions<S>& out) {
   const Vector3<S> now = -at.rate(0) * leg.u + at.rate(1) * at.x, omega = -rate(0) * leg.u + rate(1) * at.x;
-  const Vector3<S> arm = at.O_2 + at.arm_2, carried = rate(2) * now.cross(at.e), turning = at.rate(2) * omega.cross(at.e);
+  const Vector3<S> arm = at.O_2 + at.arm_2, carried = rate(2) * now.cross(at.e),
+                   turning = at.rate(2) * omega.cross(at.e);
   const bool coriolis = errors.has(FormulaError::drop_coriolis);
   if (errors.has(FormulaError::drop_link_coupling)) out.distal.c_dot -= rate(2) * at.e;
   if (!with_rates) return;

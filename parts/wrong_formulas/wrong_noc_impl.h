@@ -123,9 +123,8 @@ template <class S>
 LinkMotions<S> WrongNoc<S>::onLines(int i, const LegState<S>& at, const Vector3<S>& rate,
                                     const Vector3<S>& acceleration, bool with_rates) const {
   LinkMotions<S> out = Base::onLines(i, at, rate, acceleration, with_rates);
-  legs::withLeg(leg(i).kind, [&](auto kind) {
-    wrong::linksOf(kind, leg(i), at, rate, acceleration, errors_, with_rates, out);
-  });
+  legs::withLeg(leg(i).kind,
+                [&](auto kind) { wrong::linksOf(kind, leg(i), at, rate, acceleration, errors_, with_rates, out); });
   return out;
 }
 
@@ -134,8 +133,7 @@ void WrongNoc<S>::addOffLine(int i, const LegState<S>& at, LinkMotions<S>& links
   Base::addOffLine(i, at, links);
   if (!has(FormulaError::drop_centrifugal)) return;
   const LinkMotions<S> now = onLines(i, at, at.rate, Vector3<S>(Vector3<S>::Zero()), false);
-  links.proximal.c_ddot -=
-      links.proximal.omega.cross(now.proximal.omega.cross(Vector3<S>(at.R_1 * leg(i).off_1)));
+  links.proximal.c_ddot -= links.proximal.omega.cross(now.proximal.omega.cross(Vector3<S>(at.R_1 * leg(i).off_1)));
   links.distal.c_ddot -= links.distal.omega.cross(now.distal.omega.cross(Vector3<S>(at.R_2 * leg(i).off_2)));
 }
 
@@ -237,8 +235,7 @@ Vector6<S> WrongNoc<S>::tauD(const NocWorkspace<S>& work) const {
 template <class S>
 Matrix6<S> WrongNoc<S>::C(const NocWorkspace<S>& work) const {
   Matrix6<S> out = Base::C(work);
-  if (has(FormulaError::drop_T_rate))
-    out -= work.T.transpose().lazyProduct(this->massTimes(work.I_B, work.T_rate));
+  if (has(FormulaError::drop_T_rate)) out -= work.T.transpose().lazyProduct(this->massTimes(work.I_B, work.T_rate));
   if (has(FormulaError::drop_W)) {
     TwistShaping<S> WMT = TwistShaping<S>::Zero();
     const TwistShaping<S> MT = this->massTimes(work.I_B, work.T);

@@ -3,9 +3,9 @@
 #include <ctime>
 
 #include "base/output_folder.h"
-#include "report/page/plots.h"
 #include "report/files/run.h"
 #include "report/files/written_files.h"
+#include "report/page/plots.h"
 
 namespace ursula {
 

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.h"
-#include "report/text/result_facts.h"
 #include "report/files/run.h"
+#include "report/text/result_facts.h"
 
 namespace ursula::report {
 namespace {

@@ -7,9 +7,9 @@
 #include <map>
 
 #include "model/check_catalogue.h"
+#include "report/files/report.h"
 #include "report/page/html_template.h"
 #include "report/text/quantity.h"
-#include "report/files/report.h"
 #include "report/text/result_facts.h"
 #include "report/text/text.h"
 

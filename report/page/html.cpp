@@ -9,9 +9,9 @@
 #include "report/page/page_data.h"
 #include "report/page/picture.h"
 #include "report/page/plots.h"
+#include "report/page/sections.h"
 #include "report/text/quantity.h"
 #include "report/text/result_facts.h"
-#include "report/page/sections.h"
 #include "report/text/text.h"
 #include "validation/verdict/effort_words.h"
 

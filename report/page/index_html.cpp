@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "model/check_catalogue.h"
+#include "report/files/run.h"
+#include "report/files/written_files.h"
 #include "report/page/html_template.h"
 #include "report/page/page.h"
 #include "report/page/plots.h"
-#include "report/text/quantity.h"
-#include "report/files/run.h"
 #include "report/page/sections.h"
+#include "report/text/quantity.h"
 #include "report/text/text.h"
-#include "report/files/written_files.h"
 
 namespace ursula::report {
 

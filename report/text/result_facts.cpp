@@ -11,8 +11,8 @@
 #include "model/check_catalogue.h"
 #include "model/scenario.h"
 #include "model/trajectories/trajectory_kinds.h"
-#include "report/text/quantity.h"
 #include "report/files/report.h"
+#include "report/text/quantity.h"
 #include "validation/verdict/effort_words.h"
 
 namespace ursula::report {

@@ -7,11 +7,11 @@
 
 #include "base/text.h"
 #include "model/check_catalogue.h"
+#include "report/files/written_files.h"
+#include "report/page/sections.h"
 #include "report/text/quantity.h"
 #include "report/text/result_facts.h"
-#include "report/page/sections.h"
 #include "report/text/text.h"
-#include "report/files/written_files.h"
 #include "validation/verdict/effort_words.h"
 
 namespace ursula::report {

@@ -6,8 +6,8 @@
 
 namespace ursula::report {
 
-/// Escapes `text` for HTML and XML content or quoted attributes: the five markup characters. Invalid UTF-8 and control
-/// characters that XML 1.0 forbids become U+FFFD.
+/// Escapes `text` for HTML and XML content or quoted attributes: the five markup characters. Bytes that
+/// are not UTF-8 count as Latin-1; control characters that XML 1.0 forbids become U+FFFD.
 std::string escaped(const std::string& text);
 
 /// Returns a relative path for `href`: every byte except unreserved characters and `/` is percent-encoded.

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/text.h"
-#include "report/text/quantity.h"
 #include "report/files/report.h"
+#include "report/text/quantity.h"
 
 namespace ursula {
 namespace {

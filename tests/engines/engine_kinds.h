@@ -7,9 +7,9 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
+#include "nocsolver/noc/noc.h"
 #include "parts/engines/maximal/maximal_loop.h"
 #include "parts/engines/mujoco/mujoco_loop.h"
-#include "nocsolver/noc/noc.h"
 #include "tests/model/random_kinds.h"
 
 namespace ursula {

@@ -9,12 +9,12 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "validation/limits/further_engines.h"
 #include "parts/engines/maximal/maximal_loop.h"
 #include "simbody/simbody_loop.h"
 #include "tests/support/motions.h"
 #include "tests/support/numbers.h"
 #include "tests/support/vectors.h"
+#include "validation/limits/further_engines.h"
 
 namespace ursula {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "parts/exchange/write/export.h"
 #include "nocsolver/noc/noc.h"
+#include "parts/exchange/write/export.h"
 
 namespace ursula::exchange {
 

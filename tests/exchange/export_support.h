@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "parts/exchange/write/export.h"
 #include "model/joint_variables.h"
 #include "model/scenario.h"
+#include "parts/exchange/write/export.h"
 
 namespace ursula::exchange {
 

@@ -200,6 +200,15 @@ class Refusals(unittest.TestCase):
         done, _ = self.call(urdf("close"), "model/m.urdf")
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_frames_of_joints_in_gazebo(self):
+        """Where the joint is in another frame than its child's, it is not read."""
+        whole = urdf("gazebo")
+        self.assertEqual(self.call(whole, "m.urdf")[0].returncode, 0)
+        Path(self.folder.name, "out.toml").unlink()
+        self.refused(self.changed(whole, "<pose>", '<pose relative_to="base">'), "m.urdf", ["relative_to='base'"])
+        hinge = '</pose><axis><xyz expressed_in="base">0 0 1</xyz></axis>'
+        self.refused(self.changed(whole, "</pose>", hinge), "m.urdf", ["expressed_in='base'"])
+
     def test_an_axis_of_zero(self):
         """CAD writes it for fixed joints, which have none; a hinge needs one."""
         fixed = self.changed(urdf(), r'(<joint name="platform_mount".*?)</joint>', r'\1<axis xyz="0 0 0"/></joint>')

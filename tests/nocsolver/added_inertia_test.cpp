@@ -11,12 +11,12 @@
 
 #include "base/real50.h"
 #include "model/machine_numbers.h"
-#include "parts/fast/batch_dynamics.h"
-#include "parts/derivatives/effort_derivatives.h"
-#include "parts/fast/fast_dynamics.h"
 #include "nocsolver/noc/noc.h"
-#include "tests/support/vectors.h"
+#include "parts/derivatives/effort_derivatives.h"
+#include "parts/fast/batch_dynamics.h"
+#include "parts/fast/fast_dynamics.h"
 #include "parts/wrong_formulas/wrong_noc.h"
+#include "tests/support/vectors.h"
 
 namespace ursula {
 namespace {

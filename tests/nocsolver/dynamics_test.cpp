@@ -8,9 +8,9 @@
 
 #include "base/real50.h"
 #include "nocsolver/noc/noc.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 #include "tests/support/numbers.h"
 #include "tests/support/vectors.h"
-#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {
@@ -129,8 +129,8 @@ TEST_P(Dynamics, eachWrongTermOfSectionThreeShows) {
   const Vector6d load = load_.cast<double>();
   NocWorkspace<double> work;
   const auto answers = [&](const FormulaError* formula_error) {
-    const WrongNoc<double> solver(
-        *scenario_.manipulator, formula_error != nullptr ? WithFormulaErrors(*formula_error) : WithFormulaErrors());
+    const WrongNoc<double> solver(*scenario_.manipulator,
+                                  formula_error != nullptr ? WithFormulaErrors(*formula_error) : WithFormulaErrors());
     Eigen::VectorXd out(24);
     const Vector6d efforts = solver.inverseDynamics(motion, work, load);
     const Eigen::MatrixXd DT = solver.D(motion, work) * work.T;

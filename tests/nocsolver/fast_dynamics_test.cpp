@@ -14,8 +14,8 @@
 
 #include "base/real50.h"
 #include "model/load.h"
-#include "parts/fast/batch_dynamics.h"
 #include "parts/derivatives/effort_derivatives.h"
+#include "parts/fast/batch_dynamics.h"
 #include "parts/fast/solver.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/motions.h"

@@ -1,5 +1,5 @@
-// Every error of parts/wrong_formulas/formula_errors.h changes the solver's results for a moving machine. With no error set the
-// results are equal to the last bit.
+// Every error of parts/wrong_formulas/formula_errors.h changes the solver's results for a moving machine. With no error
+// set the results are equal to the last bit.
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <map>
 
 #include "nocsolver/noc/noc.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
-#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "base/real50.h"
 #include "nocsolver/noc/noc.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 #include "tests/model/derivatives.h"
 #include "tests/nocsolver/rounding.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
-#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "base/real50.h"
 #include "nocsolver/noc/noc.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/vectors.h"
-#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {

@@ -10,9 +10,9 @@
 #include "base/real50.h"
 #include "model/load.h"
 #include "nocsolver/noc/noc.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 #include "tests/nocsolver/rounding.h"
 #include "tests/support/vectors.h"
-#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {
@@ -66,8 +66,7 @@ Vector6<S> loadOf(const Load* load, const Motion<S>& motion) {
 }
 
 template <class S>
-Errors errorsAt(const Noc<S>& solver, const Load* load, const Motion<S>& motion, const VectorRow& row,
-                Errors errors) {
+Errors errorsAt(const Noc<S>& solver, const Load* load, const Motion<S>& motion, const VectorRow& row, Errors errors) {
   NocWorkspace<S> work;
   widen(errors.efforts, solver.inverseDynamics(motion, work, loadOf(load, motion)), row.torques);
   widen(errors.coordinates, solver.angles(work), row.q);

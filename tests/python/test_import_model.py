@@ -1,7 +1,9 @@
 """A model made elsewhere as a scenario: what is exported comes back, and what cannot be read is refused."""
 
 import os
+import re
 import subprocess
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -50,6 +52,22 @@ def test_a_wrong_machine_does_not(tmp_path):
     imported = ursula.import_model(file)
     change = np.abs(imported.inverse_dynamics(motion) - heavier.inverse_dynamics(motion)).max()
     assert change > 1e-5 * np.abs(given.inverse_dynamics(motion)).max()
+
+
+def test_a_gap_is_a_warning(tmp_path):
+    """A closure that is open by 5 cm in the file's pose; the file without it says nothing."""
+    file = export(START["UPS"], "urdf", tmp_path)
+    drive = [DRIVEN["UPS"].format(i + 1) for i in range(6)]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert not any(each["warning"] for each in ursula.import_model(file, actuated=drive).assumptions)
+    text = file.read_text()
+    open_text = re.sub(r'(p_BQ value=")(\S+)', lambda m: f"{m[1]}{float(m[2]) + 0.05!r}", text, count=1)
+    assert open_text != text
+    file.write_text(open_text)
+    with pytest.warns(UserWarning, match="open at the file's initial pose"):
+        imported = ursula.import_model(file, actuated=drive)
+    assert [each["warning"] for each in imported.assumptions].index(True) == 0
 
 
 def test_what_is_no_model_is_refused(tmp_path):

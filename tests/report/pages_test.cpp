@@ -7,11 +7,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "parts/compare/compare_page.h"
+#include "report/files/written_files.h"
 #include "report/page/picture.h"
 #include "report/page/plots.h"
 #include "report/page/singular.h"
-#include "report/files/written_files.h"
-#include "parts/compare/compare_page.h"
 #include "tests/base/temporary_folder.h"
 #include "tests/report/page_samples.h"
 #include "tests/report/report_samples.h"

@@ -13,12 +13,12 @@
 #include <sstream>
 
 #include "base/csv.h"
+#include "report/files/written_files.h"
 #include "report/page/html_template.h"
 #include "report/page/plots.h"
 #include "report/text/quantity.h"
 #include "report/text/result_facts.h"
 #include "report/text/text.h"
-#include "report/files/written_files.h"
 #include "tests/report/report_samples.h"
 #include "tests/report/text_parts.h"
 #include "tests/support/numbers.h"

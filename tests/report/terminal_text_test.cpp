@@ -84,7 +84,7 @@ torques against the expected ones:
   motor    off by  at t  factor     offset
       1  0.03 N·m   2 s   1.001
       2  12.5 N·m   0 s          -12.5 N·m
-      3   0.5 N·m   1 s
+      3   nan N·m   2 s
 likely cause: of two kinds
 )"));
 }

@@ -10,8 +10,8 @@
 #include <set>
 
 #include "base/csv.h"
-#include "report/text/quantity.h"
 #include "parts/engines/side_by_side/side_by_side.h"
+#include "report/text/quantity.h"
 #include "tests/support/matchers.h"
 
 namespace ursula {
@@ -66,9 +66,7 @@ TEST(Engines, exactRecipeIsRightAndTheObviousCallIsWrong) {
   EXPECT_EQ(kinds.size(), 4u);
 }
 
-bool movesNoRotors(const EngineResult& engine) {
-  return engine.kind->name == std::string("DART");
-}
+bool movesNoRotors(const EngineResult& engine) { return engine.kind->name == std::string("DART"); }
 
 /// Every engine has friction and a load; the load is in the platform's frame.
 TEST(Engines, knowFrictionLoadAndRotors) {

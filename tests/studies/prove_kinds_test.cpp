@@ -11,11 +11,11 @@
 #include "parts/prove/defects.h"
 #include "parts/prove/effect.h"
 #include "parts/prove/prove.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/evidence/reference.h"
 #include "validation/validate.h"
-#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {

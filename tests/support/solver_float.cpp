@@ -1,8 +1,8 @@
 // The solver in single precision, only for tests.
 
-#include "parts/fast/fast_dynamics_impl.h"
 #include "nocsolver/legs/leg_model_impl.h"
 #include "nocsolver/noc/noc_joints_impl.h"
+#include "parts/fast/fast_dynamics_impl.h"
 
 namespace ursula {
 template struct MachineParameters<float>;

@@ -7,12 +7,12 @@
 #include <optional>
 #include <tuple>
 
+#include "parts/wrong_formulas/wrong_noc.h"
 #include "tests/support/matchers.h"
 #include "tests/support/motions.h"
 #include "tests/validation/external_torques.h"
 #include "tests/validation/scenario_files.h"
 #include "tests/validation/wrong_solvers.h"
-#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {

@@ -8,13 +8,13 @@
 #include <cmath>
 #include <limits>
 
-#include "parts/engines/mujoco/mujoco_loop.h"
-#include "simbody/simbody_loop.h"
 #include "model/instants.h"
 #include "nocsolver/errors.h"
+#include "parts/engines/mujoco/mujoco_loop.h"
 #include "report/files/report.h"
 #include "report/text/result_facts.h"
 #include "report/text/terminal.h"
+#include "simbody/simbody_loop.h"
 #include "tests/support/matchers.h"
 #include "tests/support/numbers.h"
 #include "tests/validation/checks.h"

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parts/causes/diagnosis.h"
 #include "tests/support/changed.h"
 #include "tests/support/motions.h"
 #include "tests/validation/external_torques.h"
 #include "tests/validation/scenario_files.h"
-#include "parts/causes/diagnosis.h"
 
 namespace ursula {
 namespace {

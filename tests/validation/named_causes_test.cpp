@@ -7,10 +7,10 @@
 #include <map>
 #include <set>
 
-#include "tests/validation/wrong_solvers.h"
 #include "parts/causes/explanation.h"
 #include "parts/causes/tied_parameters.h"
 #include "parts/wrong_formulas/wrong_noc.h"
+#include "tests/validation/wrong_solvers.h"
 
 namespace ursula {
 namespace {

@@ -9,11 +9,11 @@
 #include <iostream>
 
 #include "nocsolver/errors.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/judges.h"
 #include "validation/validate.h"
-#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {

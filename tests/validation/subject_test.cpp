@@ -7,11 +7,11 @@
 #include <future>
 #include <vector>
 
+#include "parts/wrong_formulas/wrong_noc.h"
 #include "tests/support/motions.h"
 #include "tests/validation/scenario_files.h"
 #include "tests/validation/transformed_numbers.h"
 #include "validation/subject/frame_change.h"
-#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {

@@ -10,8 +10,8 @@
 #include <set>
 
 #include "nocsolver/errors.h"
-#include "tests/validation/wrong_solvers.h"
 #include "parts/causes/fits.h"
+#include "tests/validation/wrong_solvers.h"
 #include "validation/limits/conditioning.h"
 
 namespace ursula {

@@ -11,12 +11,12 @@
 #include <cmath>
 
 #include "nocsolver/errors.h"
+#include "parts/wrong_formulas/wrong_noc.h"
 #include "report/files/report.h"
 #include "report/files/written_files.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/evidence/reference.h"
-#include "parts/wrong_formulas/wrong_noc.h"
 
 namespace ursula {
 namespace {

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "model/instants.h"
-#include "tests/support/changed.h"
-#include "tests/support/motions.h"
-#include "tests/support/vectors.h"
 #include "parts/causes/asked_apart.h"
 #include "parts/causes/diagnosis.h"
 #include "parts/causes/tried_causes.h"
+#include "tests/support/changed.h"
+#include "tests/support/motions.h"
+#include "tests/support/vectors.h"
 #include "validation/subject/torque_file.h"
 
 namespace ursula {

@@ -60,33 +60,37 @@ std::vector<double> tellingInstants(const Trajectory& trajectory) {
   return out;
 }
 
-/// Detects a row whose time stamp alone is late or early: the two steps beside it add up to two of the usual ones,
-/// which nine of ten rows have. The spline through such a row accelerates without need.
+/// The value below which this share of all values lies.
+double quantile(std::vector<double> values, double share) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// Detects a row whose time stamp alone is late or early: one of the two steps beside it is far from the usual one, and
+/// together they are two usual ones. Nine of ten steps say what is usual. A spline through such a row accelerates.
 void unevenStamp(const Scenario& scenario, std::vector<Oddity>& out) {
   const std::vector<double>& t = scenario.trajectory->knots();
   if (scenario.trajectory->kind() != "samples" || t.size() < 10) return;
-  std::vector<double> steps(t.size() - 1);
-  for (std::size_t k = 0; k < steps.size(); ++k) steps[k] = t[k + 1] - t[k];
-  std::vector<double> sorted = steps;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-  const double usual = sorted[sorted.size() / 2];
-  const auto off = [&](double step, double by) { return std::abs(step - usual) > by * usual; };
-  const auto odd = std::count_if(steps.begin(), steps.end(), [&](double step) { return off(step, 0.01); });
-  if (10 * static_cast<std::size_t>(odd) > steps.size()) return;
+  std::vector<double> steps, off;
+  for (std::size_t k = 1; k < t.size(); ++k) steps.push_back(t[k] - t[k - 1]);
+  const double usual = quantile(steps, 0.5);
+  for (const double step : steps) off.push_back(std::abs(step / usual - 1));
+  const double spread = quantile(off, 0.9);
+  if (spread > 0.1) return;
   std::size_t worst = 0;
-  double most = 0.05 * usual;
+  double most = std::max(0.05, 5 * spread);
   for (std::size_t k = 1; k < steps.size(); ++k)
-    if (!off((steps[k - 1] + steps[k]) / 2, 0.01) && std::abs(steps[k - 1] - usual) > most) {
-      most = std::abs(steps[k - 1] - usual);
+    if (off[k - 1] > most && std::abs((steps[k - 1] + steps[k]) / (2 * usual) - 1) <= std::max(0.01, 2 * spread)) {
+      most = off[k - 1];
       worst = k;
     }
   if (worst == 0) return;
-  out.push_back(
-      {"trajectory",
-       fmt::format("row {} of the samples has t = {:.9g} s, {:.4g} s {} the steps of {:.6g} s beside it say: "
-                   "the motion through it accelerates without need. Is its stamp right?",
-                   worst + 1, t[worst], most, steps[worst - 1] > usual ? "later than" : "earlier than", usual),
-       "", "stamp"});
+  out.push_back({"trajectory",
+                 fmt::format("row {} of the samples has t = {:.9g} s, {:.4g} s {} than the steps of {:.6g} s beside it "
+                             "say: the motion through it accelerates without need. Is its stamp right?",
+                             worst + 1, t[worst], most * usual, steps[worst - 1] > usual ? "later" : "earlier", usual),
+                 "", "stamp"});
 }
 
 /// Compares the largest acceleration with the machine's gravity, or Earth's.

@@ -6,8 +6,8 @@
 
 #include "base/deadline.h"
 #include "base/start_threads.h"
-#include "validation/limits/further_engines.h"
 #include "validation/checks/judges.h"
+#include "validation/limits/further_engines.h"
 #include "validation/replay/windowed_replay.h"
 
 namespace ursula {

@@ -5,10 +5,10 @@
 #include <set>
 #include <utility>
 
-#include "validation/limits/further_engines.h"
 #include "model/check_catalogue.h"
 #include "validation/checks/judges.h"
 #include "validation/limits/conditioning.h"
+#include "validation/limits/further_engines.h"
 #include "validation/limits/rounding_profile.h"
 #include "validation/samples/pointwise.h"
 

@@ -60,7 +60,7 @@ struct Evidence {
   bool has_reactions = false;
   std::vector<ComplementSample> complement;
   std::map<std::string, std::shared_ptr<const void>> witnessed;  ///< what parts asked, by the name of the witness
-  ReplayPlan plan;  ///< with the subject's torques
+  ReplayPlan plan;                                               ///< with the subject's torques
   ReplayScales scales;
   std::vector<WindowedReplay> windows;
   Ladder ladder;

@@ -7,8 +7,8 @@
 
 #include "base/deadline.h"
 #include "base/scalar.h"
-#include "simbody/simbody_loop.h"
 #include "model/scenario.h"
+#include "simbody/simbody_loop.h"
 #include "validation/replay/windows.h"
 #include "validation/samples/pointwise.h"
 #include "validation/subject/frame_change.h"

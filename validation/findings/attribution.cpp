@@ -10,8 +10,8 @@
 
 #include "base/deadline.h"
 #include "base/start_threads.h"
-#include "validation/verdict/worst_share.h"
 #include "validation/limits/moved_inputs.h"
+#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {

@@ -124,11 +124,11 @@ ValidationResult emptyResult(const Scenario& scenario, const JudgedSubject& subj
                        {"LAPACK", lapackInUse()}};
   for (auto& row : partProvenance()) result.provenance.push_back(std::move(row));
   const std::vector<std::pair<std::string, std::string>> asked = {
-                       {"trajectory", scenario.trajectory->kind()},
-                       {"duration", fmt::format("{} s", scenario.trajectory->duration())},
-                       {"samples", fmt::format("{}", scenario.simulation.samples)},
-                       {"integrator", name(scenario.simulation.integrator)},
-                       {"tolerance", fmt::format("{:g}", scenario.simulation.tolerance)}};
+      {"trajectory", scenario.trajectory->kind()},
+      {"duration", fmt::format("{} s", scenario.trajectory->duration())},
+      {"samples", fmt::format("{}", scenario.simulation.samples)},
+      {"integrator", name(scenario.simulation.integrator)},
+      {"tolerance", fmt::format("{:g}", scenario.simulation.tolerance)}};
   result.provenance.insert(result.provenance.end(), asked.begin(), asked.end());
   addAsked(scenario, result);
   return result;

@@ -4,11 +4,11 @@
 #include <limits>
 #include <memory>
 
-#include "validation/limits/further_engines.h"
 #include "model/load.h"
 #include "model/manipulator.h"
 #include "model/motion.h"
 #include "nocsolver/noc/noc.h"
+#include "validation/limits/further_engines.h"
 
 namespace ursula {
 

@@ -3,10 +3,10 @@
 #include <memory>
 #include <optional>
 
-#include "validation/limits/further_engines.h"
 #include "model/joint_variables.h"
 #include "model/scenario.h"
 #include "validation/limits/formulation_faults.h"
+#include "validation/limits/further_engines.h"
 #include "validation/subject/frame_change.h"
 
 namespace ursula {

@@ -3,8 +3,8 @@
 #include <functional>
 #include <memory>
 
-#include "validation/limits/further_engines.h"
 #include "model/scenario.h"
+#include "validation/limits/further_engines.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {

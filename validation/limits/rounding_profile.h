@@ -6,9 +6,9 @@
 
 #include "base/deadline.h"
 #include "model/scenario.h"
-#include "validation/limits/motion_sizes.h"
 #include "validation/limits/conditioning.h"
 #include "validation/limits/formulation_faults.h"
+#include "validation/limits/motion_sizes.h"
 
 namespace ursula {
 

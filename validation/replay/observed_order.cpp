@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "simbody/simbody_loop.h"
 #include "model/manipulator.h"
+#include "simbody/simbody_loop.h"
 #include "validation/replay/replay.h"
 #include "validation/subject/subject.h"
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/deadline.h"
-#include "simbody/simbody_loop.h"
 #include "model/scenario.h"
+#include "simbody/simbody_loop.h"
 #include "validation/replay/asked_torques.h"
 
 namespace ursula {

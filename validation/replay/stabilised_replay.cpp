@@ -9,8 +9,8 @@
 #include <cmath>
 #include <new>
 
-#include "simbody/simbody_loop.h"
 #include "nocsolver/noc/noc.h"
+#include "simbody/simbody_loop.h"
 #include "validation/replay/radau.h"
 #include "validation/replay/windows.h"
 #include "validation/verdict/worst_share.h"

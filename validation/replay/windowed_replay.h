@@ -11,7 +11,8 @@ namespace ursula {
 
 /// The measured integration error in one window, as the change from a replay of the right torques to another one. That
 /// has a hundred times the tolerance, or halved steps if the tolerance does not set them. The closer look uses halved
-/// steps and changed inputs. Gaps and energy are also the other replay's own. Values are the largest up to each instant.
+/// steps and changed inputs. Gaps and energy are also the other replay's own. Values are the largest up to each
+/// instant.
 struct IntegrationError {
   struct At {
     double t = 0;

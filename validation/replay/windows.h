@@ -3,8 +3,8 @@
 #include <functional>
 #include <vector>
 
-#include "simbody/simbody_loop.h"
 #include "model/scenario.h"
+#include "simbody/simbody_loop.h"
 #include "validation/replay/windowed_replay.h"
 #include "validation/samples/pointwise.h"
 

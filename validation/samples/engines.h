@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/deadline.h"
-#include "validation/limits/further_engines.h"
 #include "model/scenario.h"
+#include "validation/limits/further_engines.h"
 #include "validation/samples/pointwise.h"
 
 namespace ursula {

@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "parts/engines/voting_engines.h"
 #include "model/open_tree.h"
+#include "parts/engines/voting_engines.h"
 
 namespace ursula {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <memory>
 
-#include "parts/engines/mujoco/mujoco_loop.h"
 #include "model/legs/leg_chain.h"
+#include "parts/engines/mujoco/mujoco_loop.h"
 
 namespace ursula::mujoco {
 

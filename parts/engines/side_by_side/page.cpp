@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include "parts/engines/side_by_side/side_by_side.h"
 #include "report/page/html_template.h"
 #include "report/page/page.h"
 #include "report/text/quantity.h"
-#include "parts/engines/side_by_side/side_by_side.h"
 
 namespace ursula {
 

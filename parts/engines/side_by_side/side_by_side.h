@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "parts/engines/loop_engine.h"
 #include "model/scenario.h"
 #include "nocsolver/noc/noc.h"
+#include "parts/engines/loop_engine.h"
 
 namespace ursula {
 

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.h"
-#include "report/text/quantity.h"
 #include "parts/engines/side_by_side/side_by_side.h"
+#include "report/text/quantity.h"
 
 namespace ursula {
 namespace {

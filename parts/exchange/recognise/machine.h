@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "parts/exchange/import.h"
 #include "model/manipulator.h"
 #include "model/motion.h"
+#include "parts/exchange/import.h"
 
 namespace ursula::exchange {
 

@@ -9,9 +9,9 @@
 #include <cmath>
 
 #include "base/scalar.h"
+#include "model/legs/leg_type.h"
 #include "parts/exchange/leg_pose.h"
 #include "parts/exchange/recognise/legs.h"
-#include "model/legs/leg_type.h"
 
 namespace ursula::exchange {
 namespace {

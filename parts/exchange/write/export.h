@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "parts/exchange/model_graph.h"
 #include "model/scenario.h"
+#include "parts/exchange/model_graph.h"
 
 namespace ursula::exchange {
 

@@ -11,11 +11,11 @@
 //   massMatrix  the partial derivatives of linkForces by the accelerations, in closed form
 // legs/ works with angles and noc/ with T: they are the independent references, and tests compare all to rounding.
 
+#include "nocsolver/legs/requirements.h"
 #include "parts/fast/kernels/pus_kernel.h"
 #include "parts/fast/kernels/rus_kernel.h"
 #include "parts/fast/kernels/ups_kernel.h"
 #include "parts/fast/kernels/urs_kernel.h"
-#include "nocsolver/legs/requirements.h"
 
 namespace ursula::kernel {
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <numeric>
 
-#include "report/page/html_template.h"
 #include "parts/sweep/report/sweep_outputs.h"
+#include "report/page/html_template.h"
 
 namespace ursula {
 

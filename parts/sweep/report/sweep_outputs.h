@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "report/page/plots.h"
-#include "parts/sweep/sqlite.h"
 #include "parts/sweep/report/sweep_rows.h"
 #include "parts/sweep/report/sweep_summary.h"
+#include "parts/sweep/sqlite.h"
+#include "report/page/plots.h"
 
 namespace ursula {
 

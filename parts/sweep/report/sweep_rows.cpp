@@ -9,8 +9,8 @@
 
 #include "base/csv.h"
 #include "base/text.h"
-#include "parts/sweep/sweep_database.h"
 #include "parts/sweep/report/sweep_outputs.h"
+#include "parts/sweep/sweep_database.h"
 
 namespace ursula {
 ColumnStore::ColumnStore(std::size_t columns, std::size_t in_memory)

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "parts/sweep/sweep_database.h"
 #include "parts/sweep/report/relations.h"
+#include "parts/sweep/sweep_database.h"
 
 namespace ursula {
 

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "report/page/html_template.h"
-#include "report/text/quantity.h"
 #include "report/page/sections.h"
+#include "report/text/quantity.h"
 
 namespace ursula {
 

@@ -6,9 +6,9 @@
 
 #include "base/text.h"
 #include "model/check_catalogue.h"
+#include "parts/sweep/report/sweep_outputs.h"
 #include "report/text/quantity.h"
 #include "report/text/text.h"
-#include "parts/sweep/report/sweep_outputs.h"
 
 namespace ursula {
 namespace {

@@ -4,10 +4,10 @@
 #include <random>
 
 #include "base/csv.h"
-#include "simbody/simbody_loop.h"
 #include "model/columns.h"
 #include "model/torque_names.h"
 #include "parts/identify/platform_motion.h"
+#include "simbody/simbody_loop.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
