@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "model/scenario_excerpt.h"
 #include "model/scenario_files.h"
+#include "report/page/scenario_picture.h"
 #include "validation/check_scenario/check_scenario.h"
 #include "validation/subject/motion_check.h"
 

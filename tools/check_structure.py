@@ -150,7 +150,7 @@ def check_targets(root):
     forbidden = {"base": re.compile(r"(?i)ursula::(?!options|eigen|base)\w+|simbody|mujoco"),
                  "model": re.compile(r"(?i)ursula::(nocsolver|validation|report)|simbody|mujoco"),
                  "nocsolver": re.compile(r"(?i)simbody|mujoco|ursula::(?!model|nocsolver)\w+|tbb"),
-                 "simbody": re.compile(r"(?i)mujoco|ursula::(?!model|simbody)\w+"),
+                 "simbody": re.compile(r"(?i)mujoco|ursula::(?!model|simbody|lapack)\w+"),
                  "validation": re.compile(r"(?i)ursula::(apps|report)|\$\{(simbody|ursula_mujoco)_"),
                  "report": re.compile(r"(?i)ursula::apps|\$\{(simbody|ursula_mujoco)_"),
                  "parts": re.compile(r"(?i)\$\{(simbody|ursula_mujoco)_"),

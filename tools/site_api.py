@@ -14,7 +14,7 @@ HEADERS = {
     "validate": ["validation/subject/subject.h", "validation/validate.h", "validation/outside/outside_solver.h",
                  "validation/validate.h", "validation/verdict/result.h"],
     "report": ["report/files/report.h", "report/files/written_files.h"],
-    "studies": ["parts/simulate/simulate.h", "validation/check_scenario/check_scenario.h", "parts/map/pose_map.h",
+    "studies": ["parts/simulate/simulate.h", "validation/check_scenario/check_scenario.h", "report/page/scenario_picture.h", "parts/map/pose_map.h",
                 "parts/compare/compare.h"],
 }
 ENTITY = re.compile(r"\b(?:class|struct|enum class|enum)\s+(\w+)[^;()]*[{]|\b(?:using)\s+(\w+)|([\w~]+(?:<[^>]*>)?)\s*\(")

@@ -7,5 +7,6 @@
 #include "parts/compare/compare.h"
 #include "parts/map/pose_map.h"
 #include "parts/simulate/simulate.h"
+#include "report/page/scenario_picture.h"
 #include "validation/check_scenario/check_scenario.h"
 #include "validation/subject/motion_check.h"

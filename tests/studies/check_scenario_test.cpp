@@ -2,6 +2,8 @@
 
 #include "validation/check_scenario/check_scenario.h"
 
+#include "report/page/scenario_picture.h"
+
 #include <gtest/gtest.h>
 
 #include "model/trajectories/trajectories.h"

@@ -8,10 +8,10 @@
 #include <cstring>
 #include <functional>
 
+#include "parts/fast/fast_samples.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/judges.h"
-#include "validation/samples/fast_samples.h"
 
 namespace ursula {
 namespace {

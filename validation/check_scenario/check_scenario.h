@@ -12,10 +12,6 @@ namespace ursula {
 /// checked.
 std::vector<std::string> warnings(const Scenario& scenario);
 
-/// Returns the machine at the start of the motion, from the front and from above, as SVG. Legs that cannot reach that
-/// pose are drawn without their knees.
-std::string picture(const Scenario& scenario);
-
 /// A value that a machine or motion may have, but rarely has.
 struct Oddity {
   std::string key;           ///< dotted, of the scenario: `manipulator.leg[2].proximal.mass`

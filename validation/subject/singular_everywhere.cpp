@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "nocsolver/errors.h"
-#include "parts/fast/solver.h"
+#include "nocsolver/noc/noc.h"
 #include "validation/subject/scaled_jacobian.h"
 
 namespace ursula {
@@ -32,18 +32,18 @@ Motion<double> poseAround(const Motion<double>& start, double length, int k) {
 }
 
 SingularEverywhere tryPoses(const Scenario& scenario) {
-  const Solver<double> solver(*scenario.manipulator);
+  const Noc<double> solver(*scenario.manipulator);
   const Motion<double> start = scenario.trajectory->at(0);
-  Workspace<double> work;
+  NocWorkspace<double> work;
   SingularEverywhere out;
   for (int k = 1; k <= most_tried && out.poses < enough && out.largest <= nearly; ++k) try {
-      const Motion<double> pose = poseAround(start, solver.length(), k);
+      const Motion<double> pose = poseAround(start, solver.machine().length, k);
       solver.displacements(pose, work);
       try {
         solver.jacobians(pose, work);
       } catch (const SingularJacobian&) {  // B is there all the same
       }
-      out.largest = std::max(out.largest, 1 / conditionNumber(scaledB(solver.B(work), solver.length())));
+      out.largest = std::max(out.largest, 1 / conditionNumber(scaledB(work.B, solver.machine().length)));
       ++out.poses;
     } catch (const PoseError&) {  // a pose that the legs cannot take says nothing
     }

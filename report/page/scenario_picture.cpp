@@ -1,3 +1,5 @@
+#include "report/page/scenario_picture.h"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -9,7 +11,6 @@
 #include "nocsolver/errors.h"
 #include "nocsolver/noc/noc.h"
 #include "report/text/text.h"
-#include "validation/check_scenario/check_scenario.h"
 #include "validation/subject/leg_points.h"
 
 namespace ursula {
