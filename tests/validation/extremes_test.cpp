@@ -7,6 +7,7 @@
 
 #include "model/exact_trajectory.h"
 #include "model/instants.h"
+#include "parts/fast/fast_subject.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/replay_errors.h"
 #include "tests/validation/scenario_files.h"

@@ -3,14 +3,12 @@ add_executable(foundation_tests
   acceptance_test.cpp
   check_list_test.cpp
   dense_torques_test.cpp
-  direct_checks_test.cpp
   frame_change_test.cpp
   relocation_test.cpp
   second_look_test.cpp
   shared_answers_test.cpp
   subject_test.cpp
   tolerance_test.cpp
-  worst_test.cpp
 )
 add_executable(profile_tests
   far_away_test.cpp

@@ -2,6 +2,7 @@
 // and a rung that is wrong, NaN or gave up fails.
 
 #include "validation/replay/ladder.h"
+#include "parts/fast/fast_subject.h"
 
 #include <gtest/gtest.h>
 
