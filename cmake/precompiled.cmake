@@ -33,11 +33,8 @@ function(ursula_use_hot target)
   ursula_use_header(${target} hot)
 endfunction()
 
-# At -O1 GCC 12 does not follow the two ways through Eigen's storage, and takes a pointer to be freed on both.
-set(ursula_cold_options -O1 $<$<CXX_COMPILER_ID:GNU>:-Wno-use-after-free>)
-
 # For texts, files, judgements and all that runs once.
 function(ursula_use_cold target)
   ursula_use_header(${target} cold)
-  target_compile_options(${target} PRIVATE ${ursula_cold_options})
+  target_compile_options(${target} PRIVATE -O1)
 endfunction()

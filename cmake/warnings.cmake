@@ -10,7 +10,7 @@ target_compile_options(ursula_options INTERFACE -fno-semantic-interposition)
 target_compile_options(ursula_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
 # These warnings of GCC 12 are false alarms about fixed-size Eigen and Boost.Multiprecision code that it inlines (PR
 # 105562 and similar).
-target_compile_options(ursula_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overread>)
+target_compile_options(ursula_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overread -Wno-use-after-free>)
 # GCC collects its garbage only beyond 1 GB, which few units reach. They compile in a tenth less time.
 target_compile_options(ursula_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1048576>)
 # GoogleTest's macros need this.
