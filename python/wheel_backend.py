@@ -114,9 +114,10 @@ def laid_out(work):
     for file in (module, *(package / "lib").iterdir()):
         os.chmod(file, 0o755)
         run("strip", "--strip-unneeded", file)
-        soname = ["--set-soname", file.name] if file.name in RENAMED.values() else []
-        replaced = [each for pair in RENAMED.items() for each in ("--replace-needed", *pair)]
-        run("patchelf", "--set-rpath", "$ORIGIN/lib" if file == module else "$ORIGIN", *soname, *replaced, file)
+        changes = [["--replace-needed", *pair] for pair in RENAMED.items()]
+        changes += [["--set-soname", file.name]] if file.name in RENAMED.values() else []
+        for change in [*changes, ["--set-rpath", "$ORIGIN/lib" if file == module else "$ORIGIN"]]:
+            run("patchelf", *change, file)  # one by one, as patchelf 0.14 confuses several
     return described(work)
 
 

@@ -62,10 +62,10 @@ std::string limitShareText(const Check& check) {
 /// A value that mixes forces and moments has no readable unit, so only the share is shown.
 std::vector<std::string> tableRow(const Check& check) {
   const bool mixed = check.unit.find(',') != std::string::npos;
-  const bool none = std::isnan(check.value) && std::isnan(check.limit);
-  const std::string value = mixed || none ? "" : numberText(check.value);
-  const std::string limit = mixed || none || check.reason == Reason::reported ? "" : numberText(check.limit);
-  return {check.name, value, limit, mixed || none ? "" : prettyUnit(check.unit), limitShareText(check)};
+  const bool unnumbered = std::isnan(check.value) && std::isnan(check.limit);
+  const std::string value = mixed || unnumbered ? "" : numberText(check.value);
+  const std::string limit = mixed || unnumbered || check.reason == Reason::reported ? "" : numberText(check.limit);
+  return {check.name, value, limit, mixed || unnumbered ? "" : prettyUnit(check.unit), limitShareText(check)};
 }
 
 std::string verdictWord(const Check& check) {

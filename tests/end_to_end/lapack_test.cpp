@@ -27,7 +27,7 @@ std::vector<std::string> installed() {
 /// Judges a quick scenario with these settings of the environment into `out`, and returns the exit code.
 int judged(const Program& ursula, const std::string& environment, const std::string& out) {
   ursula.write("a.toml", quickScenario("one"));
-  return shell(ursula, environment + " \"$URSULA\" validate a.toml --quiet --jobs 2 --out " + out + " 2>err");
+  return shell(ursula, environment + " \"$URSULA\" validate a.toml --quiet --jobs 2 --out " + out + " >said 2>err");
 }
 
 Json summaryIn(const Program& ursula, const std::string& out) {
@@ -47,8 +47,9 @@ TEST(MachinesLapack, isNotTheOneThatSimbodyCalls) {
     ASSERT_EQ(judged(ursula, "LD_LIBRARY_PATH=" + folder, "out"), 0) << folder;
     EXPECT_TRUE(contents(ursula.folder() / "out") == fresh) << folder;
   }
-  if (const char* in_ci = std::getenv("CI"); in_ci != nullptr && in_ci == std::string("true"))
-    EXPECT_GT(installed().size(), 1U) << "a second LAPACK is to be tried in CI";
+  const char* in_ci = std::getenv("CI");
+  EXPECT_GT(installed().size(), in_ci != nullptr && in_ci == std::string("true") ? 1U : 0U)
+      << "a second LAPACK is to be tried in CI";
 }
 
 /// OpenBLAS waits for ever for a buffer of some 100 MB, in threads that it starts when it is loaded.

@@ -49,6 +49,12 @@ ValidationResult machineSample(const std::string& name) {
   ValidationResult result = passedSample();
   result.scenario = name;
   result.asked = std::make_shared<const Scenario>(readScenario(std::string(URSULA_SCENARIOS) + "/" + name + ".toml"));
+  std::vector<double>& t = result.timeseries.columns.front();
+  const double share = result.asked->trajectory->duration() / t.back();
+  for (double& each : t) each *= share;
+  for (Curve& curve : result.curves)
+    for (double& each : curve.x) each *= curve.over_time ? share : 1;
+  for (Event& event : result.events) event.t *= share;
   return result;
 }
 

@@ -25,7 +25,8 @@ void joinSites(const Element& element, const std::string& first, const MjcfNamed
     if (!attribute(element, name).empty())
       refuse(element, fmt::format("both sites and {}, expected one of them", name));
   const MjcfSite& a = find(element, named.sites, first, "site1");
-  const MjcfSite& b = find(element, named.sites, requiredAttribute(element, "site2"), "site2");
+  const std::string second = requiredAttribute(element, "site2");
+  const MjcfSite& b = find(element, named.sites, second, "site2");
   joint.parent = a.body;
   joint.child = b.body;
   joinFrames(a.frame, b.frame, joint);
