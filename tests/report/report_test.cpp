@@ -208,7 +208,8 @@ TEST(Html, holdsVerdictAndChecksWithoutScript) {
 TEST(Html, leadsToWhereTheEffortsDeviateMostOfAllEngines) {
   ValidationResult result = test::passedSample();
   EXPECT_EQ(countOf(report::reportHtml(result), "largest effort deviation, "), 0u) << "no effort was compared";
-  result.deviation = EffortDeviation{"N m", 2e-10, 2.5, "leg 3", 25000};
+  EffortDeviation& worst = result.deviation.emplace();
+  worst.largest = 2e-10, worst.t = 2.5, worst.where = "leg 3", worst.largest_effort = 25000;
   const std::string event = R"({"t":2.5,"what":"largest effort deviation, )" + report::quantity(2e-10, "N m") + "\"}";
   EXPECT_EQ(countOf(report::reportHtml(result), event), 1u) << event;
 }

@@ -6,5 +6,5 @@ add_executable(sweep_report_tests
   sweep_report_test.cpp
   sweep_rows_test.cpp)
 target_link_libraries(sweep_report_tests PRIVATE
-  ursula::sweep_report ursula::report ursula::eigen fmt::fmt GTest::gmock GTest::gtest_main)
+  test_components ursula::eigen fmt::fmt GTest::gmock GTest::gtest_main)
 ursula_test_suites(sweep_report_tests)

@@ -271,22 +271,11 @@ TEST(JudgeEngines, noInstantIsNoAgreement) {
 }
 
 /// Simbody as a whole with a platform that is heavier, in both topologies.
-InjectedFault heavierInSimbody(const Scenario& natural, double factor) {
-  const auto heavier = [factor](const Scenario& scenario) {
-    ManipulatorParameters parameters = scenario.manipulator->parameters();
-    parameters.platform.mass *= factor;
-    Scenario out = scenario;
-    out.manipulator = std::make_shared<const Manipulator>(parameters);
-    return out;
-  };
+InjectedFault heavierInSimbody(double factor) {
+  const auto heavier = [factor](ManipulatorParameters& parameters) { parameters.platform.mass *= factor; };
   InjectedFault fault;
-  fault.further[twin] = heavier;
-  const auto loop = std::make_shared<SimbodyLoop>(*heavier(natural).manipulator);
-  fault.sample = [loop](PointwiseSample& sample) {
-    loop->place(sample.motion);
-    sample.torques_simbody = loop->inverseDynamics();
-    compareTorques(sample);
-  };
+  fault.formulations.simbody.machine = heavier;
+  fault.formulations.further[twin].machine = heavier;
   return fault;
 }
 
@@ -295,7 +284,7 @@ class WrongSimbody : public testing::Test {
   ValidationResult judged(double factor, const Subject* subject = nullptr) const {
     ValidationOptions quick{false, false, false};
     quick.reference = referenceOf("paper-helix", 31);
-    quick.fault = std::make_shared<const InjectedFault>(heavierInSimbody(quick.reference->scenario, factor));
+    quick.fault = std::make_shared<const InjectedFault>(heavierInSimbody(factor));
     return subject == nullptr ? validate(scenario_, quick) : validate(scenario_, *subject, quick);
   }
   Scenario scenario_ = scenarioOf("paper-helix", 31);

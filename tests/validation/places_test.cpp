@@ -8,7 +8,7 @@
 #include <cstring>
 #include <functional>
 
-#include "parts/fast/fast_samples.h"
+#include "parts/fast/fast_checks.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/judges.h"

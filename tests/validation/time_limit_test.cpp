@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "model/trajectories/trajectories.h"
+#include "parts/fast/fast_samples.h"
 #include "report/files/report.h"
 #include "report/files/written_files.h"
 #include "tests/support/matchers.h"
@@ -179,10 +180,13 @@ TEST(TimeLimit, judgesNoKernelsThatWereNotAsked) {
   ASSERT_NE(fast, families.end());
   Evidence evidence;
   evidence.samples.resize(1);
+  EXPECT_FALSE(fast->applies(evidence)) << "without the experiment";
+  const auto kernels = std::make_shared<FastSamples>();
+  evidence.witnessed["fast kernels"] = kernels;
   EXPECT_TRUE(fast->applies(evidence));
   evidence.has.out_of_time = "the time limit of 1 s was reached";
   EXPECT_FALSE(fast->applies(evidence));
-  evidence.fast.refused = "the pose is singular";
+  kernels->refused = "the pose is singular";
   EXPECT_TRUE(fast->applies(evidence));
 }
 

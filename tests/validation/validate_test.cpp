@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "nocsolver/errors.h"
+#include "parts/fast/fast_samples.h"
 #include "parts/wrong_formulas/wrong_noc.h"
 #include "report/files/report.h"
 #include "report/files/written_files.h"
@@ -100,12 +101,19 @@ TEST(ValidateResult, carriesSeriesAndProvenance) {
                                            "integrator", "tolerance", "samples"}));
 }
 
+std::shared_ptr<const InjectedFault> faultOf(const std::shared_ptr<const FastFault>& kernels) {
+  InjectedFault out;
+  out.witness = kernels;
+  return std::make_shared<const InjectedFault>(out);
+}
+
 /// The users' kernels are judged beside the NOC, and their errors are not the NOC's.
 TEST(ValidateControl, aWrongFastKernelFailsAndTheNocHolds) {
-  const auto fault = std::make_shared<InjectedFault>();
-  fault->fast.answers = [](FastAnswers& answers) {
+  const auto kernels = std::make_shared<FastFault>();
+  kernels->answers = [](FastAnswers& answers) {
     for (Vector6d& torques : answers.torques_in_batch) torques(0) *= 1 + 1e-7;
   };
+  const auto fault = faultOf(kernels);
   const ValidationResult result = validate(helix(), onHelix(fault));
   EXPECT_EQ(result.verdict, Verdict::fail);
   EXPECT_EQ(result.subject.formulation, Formulation::noc);
@@ -119,20 +127,20 @@ TEST(ValidateControl, aWrongFastKernelFailsAndTheNocHolds) {
 
 /// Only the last pose of a long batch is wrong; the batch's length fills no whole number of blocks.
 TEST(ValidateControl, aWrongPoseAtTheEndOfABatchFails) {
-  const auto fault = std::make_shared<InjectedFault>();
-  fault->fast.answers = [](FastAnswers& answers) {
+  const auto kernels = std::make_shared<FastFault>();
+  kernels->answers = [](FastAnswers& answers) {
     ASSERT_GT(answers.torques_in_batch.size(), 4000U);
     answers.torques_in_batch.back()(0) *= 1 + 1e-7;
   };
-  EXPECT_EQ(firstFailing(validate(helix(), onHelix(fault)).checks), "fast.inverse_batch");
+  EXPECT_EQ(firstFailing(validate(helix(), onHelix(faultOf(kernels))).checks), "fast.inverse_batch");
 }
 
 /// If the kernels for single poses are wrong, nothing is learnt between the samples, but the NOC's deviation is still
 /// known.
 TEST(ValidateControl, aWrongKernelOfOnePoseLeavesTheDeviationKnown) {
-  const auto fault = std::make_shared<InjectedFault>();
-  fault->fast.answers = [](FastAnswers& answers) { answers.torques.front()(0) *= 1 + 1e-7; };
-  const ValidationResult result = validate(helix(), onHelix(fault));
+  const auto kernels = std::make_shared<FastFault>();
+  kernels->answers = [](FastAnswers& answers) { answers.torques.front()(0) *= 1 + 1e-7; };
+  const ValidationResult result = validate(helix(), onHelix(faultOf(kernels)));
   EXPECT_EQ(firstFailing(result.checks), "fast.inverse");
   EXPECT_EQ(verdictOf(result.checks, "torque.between"), "inconclusive");
   ASSERT_TRUE(result.deviation);
