@@ -35,10 +35,10 @@ ALLOWED = {
     "tests": f"bench examples {CORE.replace(' apps', '')} parts apps",
     "bench": f"{CORE} parts",
 }
-ENGINE_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath|mujoco/|dart/|ode/|bullet|btbullet)|/(simbody|simtk|simmath)")
+ENGINE_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath|mujoco/|dart/)|/(simbody|simtk|simmath)")
 # Users of the library have the standard library, Eigen and the library itself.
 PYTHONS_HEADER = re.compile(r"pybind11/[\w/]+\.h")
-ENGINES_HEADER = re.compile(r"(mujoco|dart|BulletDynamics|drake|pinocchio|rbdl)/|tinyxml2\.h$")
+ENGINES_HEADER = re.compile(r"(mujoco|dart|drake|pinocchio|rbdl)/|tinyxml2\.h$")
 USERS_HEADER = re.compile(r"[a-z_]+|Eigen/\w+|ursula/\w+\.h")
 # Within nocsolver/ the legs never see the dynamics.
 WITHIN_SOLVER = {"legs": {"legs"}, "noc": {"noc", "legs"}, "": {"noc", "legs", ""}}

@@ -21,7 +21,7 @@ sys.dont_write_bytecode = True
 import sources  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
-FOLDERS = ("base", "model", "nocsolver", "engines", "exchange", "validation", "report", "studies", "apps", "tests", "bench")
+FOLDERS = tuple(folder for folder in sources.FOLDERS if folder not in ("include", "examples", "python"))
 
 
 def units(build, only):

@@ -40,8 +40,8 @@ struct NocWorkspace {
 
 /// The paper's method for a platform on legs of any kinds with any motors, with the corrections that docs/equations.md
 /// names. Section 2 gives kinematics and Jacobians, section 3 dynamics by the natural orthogonal complement. A
-/// validation judges this formulation. It is written to be read beside the paper; fast/ gives the same numbers without
-/// forming T.
+/// validation judges this formulation. It is written to be read beside the paper; parts/fast/ gives the same numbers
+/// without forming T.
 ///
 /// The generalised speeds are the rates q̇ of the driven coordinates, φ̇ in the paper. Immutable; threads share it, each
 /// with its own workspace. Only functions that say so allocate. The virtual functions let tests derive wrong formulas

@@ -1,6 +1,5 @@
-// The formulas of `ursula audit`: each text of its rows beside the LaTeX that the page shows instead. ./dev bundle
-// turns these into MathML, so that no page needs a script or a font for it. Tests find texts that are missing here or
-// that occur twice.
+// The formulas of docs/audit.md: each text of its rows beside the LaTeX that the page shows instead. ./dev bundle
+// turns these into MathML, so that no page needs a script or a font for it.
 const D = String.raw`-l\sin\psi + s\sin(\psi+\theta)`;
 const Q_hat = String.raw`\hat Q`;
 const norm = String.raw`\lVert \dot p + \Omega Q b\rVert`;

@@ -15,7 +15,7 @@ class Linearisation {
  public:
   using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
-  /// Uses central differences of the fast kernels' direct dynamics.
+  /// Uses central differences of the NOC's direct dynamics.
   explicit Linearisation(const Scenario& scenario);
 
   /// L, m.
