@@ -91,6 +91,34 @@ TEST(ReadMjcf, whatTheCompilerChangesIsListed) {
   for (const char* what : {"boundmass", "boundinertia", "balanceinertia"}) EXPECT_EQ(assumed(plain, what).first, 0);
 }
 
+/// As SDFormat reads it: up to 1.5 the physics has a world's gravity, then only the world itself.
+TEST(ReadSdf, gravityOfPhysicsCountsInOldVersionsOnly) {
+  const auto graph = [](const std::string& version) {
+    return read("<sdf version='" + version +
+                    "'><world name='w'><physics type='ode'><gravity>0 0 -5</gravity></physics>" +
+                    "<model name='m'><link name='a'/></model></world></sdf>",
+                "physics.sdf");
+  };
+  EXPECT_EQ(graph("1.5").gravity, Vector3d(0, 0, -5));
+  EXPECT_EQ(assumed(graph("1.5"), "<physics>").first, 0);
+  for (const char* version : {"1.6", "1.9"}) {
+    EXPECT_EQ(graph(version).gravity, Vector3d(0, 0, -9.8)) << version;
+    EXPECT_EQ(assumed(graph(version), "<physics>"), std::make_pair(1, 5.0)) << version;
+  }
+}
+
+/// MuJoCo would take no mass, or refuse; and what it refuses, an <inertial> without its place.
+TEST(ReadMjcf, noInertiaIsInvented) {
+  const auto graph = [](const std::string& place, const std::string& geom) {
+    return read("<mujoco><compiler inertiafromgeom='true'/><worldbody><body name='a'><joint name='j'/><inertial " +
+                    place + " mass='1' diaginertia='1 1 1'/>" + geom + "</body></worldbody></mujoco>",
+                "massless.xml");
+  };
+  EXPECT_EQ(graph("pos='0 0 1'", "").bodies.at(1).mass, 1);
+  EXPECT_THROW(graph("pos='0 0 1'", "<geom size='1' mass='0'/>"), ImportError);
+  EXPECT_THROW(graph("", ""), ImportError);
+}
+
 TEST(ReadUrdf, gravityIsListedUnlessMujocosSettingsGiveOne) {
   const auto graph = [](const std::string& settings) {
     return read(R"(<robot name="r"><mujoco>)" + settings + R"(</mujoco><link name="a"/></robot>)", "gravity.urdf");

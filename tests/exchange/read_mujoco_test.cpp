@@ -161,12 +161,12 @@ constexpr const char* bounds =
     <body name="b" pos="0 0 1"><joint name="b1"/><inertial pos="0 0 0" mass="0.1" diaginertia="0.001 0.4 0.41"/></body></body>
   <body name="still" pos="1 0 0"><geom type="box" size="0.1 0.1 0.1"/></body></worldbody></mujoco>)";
 
-/// A body without numbers (MuJoCo 2.2 puts its raised mass right only if it is at its parent's origin), and letters of
-/// both cases in eulerseq.
+/// Bodies without numbers, whose raised mass MuJoCo puts at their position once more, and letters of both cases in
+/// eulerseq.
 constexpr const char* raised =
     R"(<mujoco><compiler angle="radian" boundmass="0.5" boundinertia="0.02" eulerseq="zXy"/><worldbody>
-  <body name="a" pos="3 2 1" euler="0.1 0.2 0.3"><joint name="a1"/><inertial pos="0 1 0" mass="1" diaginertia="1 1 1"/><body name="b"><joint name="b1"/></body></body>
-  </worldbody></mujoco>)";
+  <body name="a" pos="3 2 1" euler="0.1 0.2 0.3"><joint name="a1"/><inertial pos="0 1 0" mass="1" diaginertia="1 1 1"/><body name="b"><joint name="b1"/></body>
+    <body name="c" pos="0.1 0.2 0.3" euler="0.4 0.5 0.6"><joint name="c1"/></body></body></worldbody></mujoco>)";
 
 /// MuJoCo's settings within a URDF; bounds hold for each link before fixed ones are fused.
 constexpr const char* urdf =

@@ -53,7 +53,8 @@ class MjcfReader {
     eachChild(root_, "compiler", [this](const Element& e) { compiler_.read(e); });
     readMjcfOptions(root_, graph_);
     defaults_.read(root_);
-    eachChild(root_, "worldbody", [this](const Element& e) { readChildren(e, 0, Place()); });
+    eachChild(root_, "worldbody",
+              [this](const Element& e) { readChildren(e, 0, Place(), Eigen::Isometry3d::Identity()); });
     scaleMasses();
     readMjcfClosures(root_, defaults_, named_, graph_);
     readSmoothing();
@@ -100,20 +101,22 @@ class MjcfReader {
     });
   }
 
-  /// Reads inertia, geoms, sites and child bodies of the body with index `body`.
-  void readChildren(const Element& element, std::size_t body, const Place& place) {
+  /// Reads inertia, geoms, sites and child bodies of the body with index `body`, whose parent has the frame `outer`.
+  void readChildren(const Element& element, std::size_t body, const Place& place, const Eigen::Isometry3d& outer) {
     const Element* inertial = onlyChild(element, "inertial");
     if (inertial != nullptr) listUnknownAttributes(*inertial, known_of_inertial, graph_.assumptions);
     const bool from_geoms = compiler_.from_geom == MjcfCompiler::FromGeom::yes ||
                             (compiler_.from_geom == MjcfCompiler::FromGeom::automatic && inertial == nullptr);
     if (body != 0 && !from_geoms && inertial != nullptr)
       takeInertial(*inertial, compiler_, place.frame, graph_.bodies[body]);
+    bool has_geoms = false;
     eachContent(element, place, [&](const Element& e, const Place& at) {
       const std::string kind = e.Name();
       const auto get = [&](const char* name) { return defaults_.get(e, at.childclass, name); };
       if (body == 0 && (kind == "joint" || kind == "freejoint" || kind == "inertial"))
         refuse(e, "of the world, which does not move; expected one of a body");
-      if (kind == "geom" && body != 0 && from_geoms) addGeom(e, compiler_, at.frame, get, graph_.bodies[body]);
+      if (kind == "geom" && body != 0 && from_geoms)
+        has_geoms = addGeom(e, compiler_, at.frame, get, graph_.bodies[body]) || has_geoms;
       if (kind == "inertial" && e.Parent() != &element) refuse(e, "within a <frame>, expected it in the body itself");
       if (kind == "site" && !attribute(e, "name").empty()) {
         const Eigen::Isometry3d own = get("fromto").empty() ? placeOf(e, get) : mjcfFromTo(e, get("fromto")).frame;
@@ -122,8 +125,13 @@ class MjcfReader {
       }
     });
     // A body without geoms keeps its own numbers, whatever inertiafromgeom says.
-    if (body != 0 && from_geoms && inertial != nullptr && graph_.bodies[body].mass == 0)
+    if (has_geoms && inertial != nullptr && graph_.bodies[body].mass == 0)
+      refuse(*inertial, "inertiafromgeom=\"true\" puts geoms without mass in its place, expected geoms with mass");
+    if (body != 0 && from_geoms && inertial != nullptr && !has_geoms)
       takeInertial(*inertial, compiler_, place.frame, graph_.bodies[body]);
+    // MuJoCo's compiler gives a body without inertia its own position once more, which matters if boundmass adds mass.
+    if (body != 0 && inertial == nullptr && !has_geoms)
+      graph_.bodies[body].center_of_mass = place.frame * (outer.inverse() * place.frame).translation();
     if (body != 0) boundInertia(element, compiler_, graph_.bodies[body], graph_.assumptions);
     eachContent(element, place, [&](const Element& e, const Place& at) {
       if (std::string(e.Name()) == "body") readBody(e, body, at);
@@ -150,7 +158,7 @@ class MjcfReader {
     const std::size_t body = addFrames(element, name, parent, place);
     if (!named_.bodies.emplace(name, body).second)
       refuse(element, "a second body of that name, expected names of their own");
-    readChildren(element, body, place);
+    readChildren(element, body, place, graph_.bodies[parent].frame);
   }
 
   std::size_t addBody(const Element& element, const std::string& name, const Eigen::Isometry3d& frame) {

@@ -61,9 +61,9 @@ struct MjcfFromTo {
 };
 MjcfFromTo mjcfFromTo(const Element& element, const std::string& points);
 
-/// Adds a geom's mass to a body. `at` is the geom's parent frame in the world; `get` returns its attributes. Throws
-/// ImportError for shapes whose inertia is in another file.
-void addGeom(const Element& geom, const MjcfCompiler& compiler, const Eigen::Isometry3d& at,
+/// Adds a geom's mass to a body. Returns whether the geom is in the groups that give inertia. `at` is the geom's parent
+/// frame in the world; `get` returns its attributes. Throws ImportError for shapes whose inertia is in another file.
+bool addGeom(const Element& geom, const MjcfCompiler& compiler, const Eigen::Isometry3d& at,
              const std::function<std::string(const char*)>& get, GraphBody& body);
 
 /// Reads an <inertial>; `at` is the body's frame in the world.

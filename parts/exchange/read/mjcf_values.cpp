@@ -209,16 +209,16 @@ MjcfFromTo mjcfFromTo(const Element& element, const std::string& points) {
   return {placed((from + to) / 2, fromZTo(z)), (to - from).norm() / 2};
 }
 
-void addGeom(const Element& geom, const MjcfCompiler& compiler, const Eigen::Isometry3d& at,
+bool addGeom(const Element& geom, const MjcfCompiler& compiler, const Eigen::Isometry3d& at,
              const std::function<std::string(const char*)>& get, GraphBody& body) {
   const std::string group = get("group"), mass_text = get("mass"), density = get("density"), from_to = get("fromto");
   const double of_group = group.empty() ? 0 : numberOf(geom, group, "group");
-  if (of_group < compiler.least_group || of_group > compiler.most_group) return;
+  if (of_group < compiler.least_group || of_group > compiler.most_group) return false;
   const std::string type = get("type").empty() ? "sphere" : get("type");
   const double given = mass_text.empty() ? -1 : numberOf(geom, mass_text, "mass");
-  if (given == 0 || type == "plane" || type == "hfield") return;
+  if (given == 0 || type == "plane" || type == "hfield") return true;
   const double per_volume = density.empty() ? 1000 : numberOf(geom, density, "density");
-  if (mass_text.empty() && per_volume == 0) return;
+  if (mass_text.empty() && per_volume == 0) return true;
   if (!get("mesh").empty() || type == "mesh" || type == "sdf")
     refuse(geom, fmt::format("a mass that follows from a mesh ({}), which is not read; body {} needs an <inertial>",
                              shown(get("mesh")), shown(body.name)));
@@ -249,6 +249,7 @@ void addGeom(const Element& geom, const MjcfCompiler& compiler, const Eigen::Iso
   body.mass = sum.mass;
   body.center_of_mass = sum.center_of_mass;
   body.inertia = sum.inertia;
+  return true;
 }
 
 void takeInertial(const Element& inertial, const MjcfCompiler& compiler, const Eigen::Isometry3d& at, GraphBody& body) {
@@ -256,7 +257,8 @@ void takeInertial(const Element& inertial, const MjcfCompiler& compiler, const E
   body.mass = numberOf(inertial, requiredAttribute(inertial, "mass"), "mass");
   if (body.mass < 0) refuse(inertial, fmt::format("a mass of {}, expected none below zero", body.mass));
   const std::string pos = get("pos"), full = get("fullinertia"), diagonal = get("diaginertia");
-  body.center_of_mass = at * (pos.empty() ? Vector3d::Zero() : vectorOf(inertial, pos, "pos"));
+  if (pos.empty()) refuse(inertial, "no pos, expected the mass centre; MuJoCo assumes none");
+  body.center_of_mass = at * vectorOf(inertial, pos, "pos");
   Matrix3d turn = at.linear() * mjcfOrientation(inertial, compiler, get), local = Matrix3d::Zero();
   if (!full.empty()) {
     for (const char* name : {"quat", "axisangle", "euler", "xyaxes", "zaxis"})

@@ -53,7 +53,7 @@ class SdfReader {
     const Element& top = world == nullptr ? root_ : *world;
     if (world != nullptr && world->NextSiblingElement("world") != nullptr)
       refuse(*world->NextSiblingElement("world"), "a second world, expected one");
-    readSdfGravity(top, graph_);
+    readSdfGravity(top, minor_, graph_);
     if (const Element* state = top.FirstChildElement("state"))
       refuse(*state, "gives models another pose, which not every reader takes; expected a file without it");
     listUnknown(top, known_in_world, graph_.assumptions);

@@ -128,7 +128,10 @@ std::size_t SdfFrames::bodyOf(const Element& at, std::size_t frame) const {
 Eigen::Isometry3d sdfPoseOf(const Element& element) {
   const Element* pose = onlyChild(element, "pose");
   if (pose == nullptr || textOf(*pose).empty()) return Eigen::Isometry3d::Identity();
-  const bool quaternion = attribute(*pose, "rotation_format") == "quat_xyzw";
+  const std::string format = attribute(*pose, "rotation_format");
+  const bool quaternion = format == "quat_xyzw";
+  if (!format.empty() && !quaternion && format != "euler_rpy")
+    refuse(*pose, fmt::format("rotation_format '{}', expected euler_rpy or quat_xyzw", shown(format)));
   const std::vector<double> v = numbersOf(*pose, textOf(*pose), quaternion ? 7 : 6, "<pose>");
   const Vector3d position(v[0], v[1], v[2]);
   if (quaternion) {
@@ -246,10 +249,18 @@ void refuseSdfIncludes(const Element& scope, Assumptions& assumptions) {
   });
 }
 
-void readSdfGravity(const Element& top, ModelGraph& graph) {
+void readSdfGravity(const Element& top, int minor, ModelGraph& graph) {
   const Element* gravity = onlyChild(top, "gravity");
   eachChild(top, "physics", [&](const Element& physics) {
     const Element* own = onlyChild(physics, "gravity");
+    if (own != nullptr && minor > 5) {
+      graph.assumptions.push_back(
+          {"<gravity> of <physics> has no meaning from SDF 1.6 on and was left out, as by "
+           "SDFormat; a <gravity> of <world> has one",
+           fmt::format("<gravity> of line {}", own->GetLineNum()), vectorOf(*own, textOf(*own), "gravity").norm(),
+           "m/s²"});
+      return;
+    }
     if (own != nullptr && gravity != nullptr) refuse(*own, "a second <gravity>, expected one");
     if (own != nullptr) gravity = own;
   });

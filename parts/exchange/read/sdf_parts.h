@@ -77,8 +77,8 @@ void listPlugins(const Element& element, const std::string& of, Assumptions& ass
 /// Refuses a <velocity_decay> in `element` above zero. `factor` is the text of URDF's element for the same.
 void refuseSdfDecay(const Element& element, const std::string& factor = "");
 
-/// Reads the gravity of a world or, in older files, of its physics, and says SDF's default. Throws for a second one.
-void readSdfGravity(const Element& top, ModelGraph& graph);
+/// Reads the gravity of a world or, up to version 1.5, of its physics, and says SDF's default. Throws for a second one.
+void readSdfGravity(const Element& top, int minor, ModelGraph& graph);
 
 /// Refuses <include>, but for the usual light and floor of a world, which are listed.
 void refuseSdfIncludes(const Element& scope, Assumptions& assumptions);
