@@ -75,6 +75,18 @@ void requireApart(const Scenario& scenario, std::initializer_list<std::string> w
         throw UsageError(fmt::format("{}: {} reads this file, expected another file", file, scenario.file.string()));
 }
 
+void requireKept(const Scenario& scenario, const std::string& folder, std::initializer_list<const char*> written,
+                 const std::string& also) {
+  std::vector<std::filesystem::path> inputs = filesNamedBy(scenario);
+  inputs.push_back(scenario.file);
+  inputs.emplace_back(also);
+  for (const std::filesystem::path& read : inputs)
+    for (const char* name : written)
+      if (namesFile(read.string()) && areSame((std::filesystem::path(folder) / name).string(), read.string()))
+        throw UsageError(fmt::format("--out {}: results would replace {}, which is read, expected another folder",
+                                     folder, read.string()));
+}
+
 void requireOutside(std::initializer_list<std::string> compared, std::initializer_list<std::string> written) {
   std::error_code none;
   for (const std::string& folder : compared)

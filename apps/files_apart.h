@@ -15,6 +15,11 @@ std::string namedTwice(const CLI::App& app);
 /// Throws UsageError if one of the options' values `written` is a file that the scenario names, such as its samples.
 void requireApart(const Scenario& scenario, std::initializer_list<std::string> written);
 
+/// Throws UsageError if one of the results `written` into `folder` would replace a file that is read: the scenario's,
+/// one that it names, or `also`.
+void requireKept(const Scenario& scenario, const std::string& folder, std::initializer_list<const char*> written,
+                 const std::string& also = "");
+
 /// Throws UsageError if one of `written` is in a folder of `compared`, or a link to a file there. A file written into
 /// results would mix several runs.
 void requireOutside(std::initializer_list<std::string> compared, std::initializer_list<std::string> written);

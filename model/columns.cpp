@@ -126,8 +126,11 @@ class Finder {
       found_.push_back(column);
     else if (rank(column) == rank(*other))
       doubled_.emplace_back(*other, column);
-    else if (rank(column) > rank(*other))
-      *other = column;
+    else {
+      const bool better = rank(column) > rank(*other);
+      if (std::max(rank(column), rank(*other)) == 1) beside_.push_back(better ? *other : column);
+      if (better) *other = column;
+    }
   }
 
   /// A column of the map comes before one with the contract's name, and this before any other.
@@ -185,10 +188,23 @@ class Finder {
       else if (machine_ != nullptr || used->name != contractName(used->quantity, used->index))
         words.push_back(wordsOf(*used));
     }
+    if (const std::string others = besideText(); !others.empty()) words.push_back("not used beside them: " + others);
     out_.read_as = fmt::format("{}", fmt::join(words, ", "));
     if (const std::string how = dialect_.words(); !how.empty())
       out_.read_as = how + (words.empty() ? "" : "; ") + out_.read_as;
     return std::move(out_);
+  }
+
+  /// Columns of a meaning that another column has, which is the contract's; and the second of two orientations.
+  std::string besideText() const {
+    std::vector<std::string> out;
+    for (const Column& column : beside_)
+      if (isUsed(column.quantity)) out.push_back("'" + shown(column.name) + "'");
+    for (const Column& column : found_)
+      if (out_.has_poses && !isUsed(column.quantity) &&
+          (column.quantity == ColumnQuantity::quaternion || column.quantity == ColumnQuantity::angle))
+        out.push_back("'" + shown(column.name) + "'");
+    return fmt::format("{}", fmt::join(out, ", "));
   }
 
   bool isUsed(ColumnQuantity of) const {
@@ -235,6 +251,7 @@ class Finder {
   const Manipulator* machine_;
   std::vector<Column> found_;
   std::vector<std::pair<Column, Column>> doubled_;
+  std::vector<Column> beside_;  ///< whose meaning a column with the contract's name has
   std::vector<bool> mapped_;
   Columns out_;
 };

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/files_apart.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
 #include "base/output_folder.h"
@@ -41,6 +42,7 @@ int engines(EnginesOptions options) {
   }
   options.asked.engines = namedEngines(options.engines);
   const Scenario scenario = openScenario(options.scenario);
+  if (!options.out.empty()) requireKept(scenario, options.out, {"engines.json", "engines.csv", "report.html"});
   std::optional<OutputFolder> folder;  // made before the work, so that a folder that cannot be written is found early
   if (!options.out.empty()) folder.emplace(options.out);
   Progress progress(scenario.name);

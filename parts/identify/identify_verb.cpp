@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "apps/files_apart.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
@@ -44,6 +45,9 @@ int identifyLog(IdentifyCall call) {
   call.log.file = call.measured;
   const std::string folder = call.out.empty() ? "results/" + scenario.name : call.out;
   refuseFile(folder);
+  requireKept(scenario, folder,
+              {"summary.json", "report.html", "efforts.csv", "spectra.csv", "parameters.csv", "identified.toml"},
+              call.measured);
   MeasuredLog log = readMeasuredLog(call.log, *scenario.manipulator);
   if (!call.quiet) say("{}: read as: {}\n", shownPath(call.measured), log.read_as);
   if (!log.ignored.empty())

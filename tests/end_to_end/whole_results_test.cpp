@@ -223,17 +223,23 @@ TEST(WholeResults, replaceNothingThatIsRead) {
   const std::string samples = quickScenario("one");
   ursula.write("sampled.toml", samples.substr(0, samples.find("[trajectory]")) +
                                    "[trajectory]\nkind = \"samples\"\nfile = \"out/timeseries.csv\"\n");
+  for (const char* copy : {"out/efforts.csv", "out/engines.csv"})
+    ursula.write(copy, TemporaryFolder::read(ursula.folder() / "out/timeseries.csv"));
+  ursula.write("motion.toml",
+               replaced(TemporaryFolder::read(ursula.folder() / "sampled.toml"), "timeseries", "engines"));
   ASSERT_EQ(ursula("check sampled.toml").exit_code, 0) << ursula("check sampled.toml").err;
   const auto before = contents(ursula.folder());
   for (const char* call :
-       {"a.toml --torques out/timeseries.csv", "out/summary.json", "a.toml out/summary.json", "sampled.toml"}) {
-    const UrsulaRun run = ursula(std::string("validate ") + call + " --out out");
+       {"validate a.toml --torques out/timeseries.csv", "validate out/summary.json", "validate a.toml out/summary.json",
+        "validate sampled.toml", "identify a.toml --measured ./out/efforts.csv"}) {
+    const UrsulaRun run = ursula(std::string(call) + " --out out");
     EXPECT_EQ(run.exit_code, 2) << call;
     EXPECT_THAT(run.err,
                 AllOf(HasSubstr("results would replace "), HasSubstr(", which is read, expected another folder")))
         << call;
     EXPECT_TRUE(contents(ursula.folder()) == before) << call;
   }
+  EXPECT_THAT(ursula("engines motion.toml --out side").err, HasSubstr("results would replace "));
   for (const char* call :
        {"inverse sampled.toml --out out/timeseries.csv", "inverse a.toml --samples 3 --out ./b/../a.toml",
         "map sampled.toml --x -0.1,0.1,2 --out out/../out/timeseries.csv",

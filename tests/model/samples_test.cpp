@@ -195,6 +195,12 @@ TEST(Columns, ofAMotionAreReadInTheirUnits) {
 TEST(Columns, byTheContractAreTakenAsTheyStand) {
   const std::string text = "t_s,p_x_m,p_y_m,p_z_m,q_w,q_x,q_y,q_z,t_ms,v_x_m_s\n0.1,1,2,3,1,0,0,0,7,8\n";
   EXPECT_EQ(readFrom(text).at("t_s").front(), 0.1);
+  EXPECT_EQ(meaningInWords(std::filesystem::path(testing::TempDir()) / "by_meaning.csv", false),
+            "not used beside them: 't_ms'");
+  readFrom("t_s,p_x_m,p_y_m,p_z_m,q_w,q_x,q_y,q_z,roll_deg,pitch_deg,yaw_deg\n0.1,1,2,3,1,0,0,0,9,9,9\n");
+  EXPECT_EQ(meaningInWords(std::filesystem::path(testing::TempDir()) / "by_meaning.csv", false),
+            "not used beside them: 'roll_deg', 'pitch_deg', 'yaw_deg'");
+  readFrom("t_s,p_x_m,p_y_m,p_z_m,q_w,q_x,q_y,q_z,v_x_m_s\n0.1,1,2,3,1,0,0,0,8\n");
   EXPECT_EQ(meaningInWords(std::filesystem::path(testing::TempDir()) / "by_meaning.csv", false), "");
   readFrom("t_ms,p_x_m,p_y_m,p_z_m,q_w,q_x,q_y,q_z\n0.1,1,2,3,1,0,0,0\n");
   EXPECT_EQ(meaningInWords(std::filesystem::path(testing::TempDir()) / "by_meaning.csv", false), "'t_ms' time × 0.001");

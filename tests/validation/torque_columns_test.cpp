@@ -168,6 +168,8 @@ TEST(TorqueColumns, aWrongMapIsRefused) {
             "you mean 'tau_1_Nm'?");
   EXPECT_EQ(said({"t_s=a", "t_ms=b"}), "--map t_ms=b: t_ms is mapped twice");
   EXPECT_EQ(said({"t_s=a", "tau_1_Nm=a"}), "--map tau_1_Nm=a: column 'a' is mapped to t_s already");
+  EXPECT_THAT(said({"tau_1_Nm=tau_2_Nm"}),
+              HasSubstr("--map gives column 'tau_2_Nm' to another name, so 'tau_2_Nm' has none"));
   EXPECT_THAT(said({"t_s=t_S"}), StartsWith("a.csv:1: error: no column 't_S' (--map t_s=t_S), the header has t_s, "));
 }
 

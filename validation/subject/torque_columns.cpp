@@ -36,6 +36,11 @@ class Finder {
     for (const auto& [name, column] : map) take(name, column);
     // Then tau_1_Nm belongs to motor 2.
     const bool from_zero = (has("tau_0_Nm") || has("tau_0_N")) && !has("tau_6_Nm") && !has("tau_6_N");
+    for (const std::string& name : targets_) {
+      if (!from_zero && found_.count(name) == 0 && isTaken(name))
+        fail(fmt::format("--map gives column '{}' to another name, so '{}' has none; expected --map {} too", name, name,
+                         quoted(name + "=COLUMN")));
+    }
     for (const std::string& name : targets_)
       if (has(name) && (!from_zero || name == "t_s")) found_.emplace(name, TorqueColumn{name, name, 0});
     takeCertain();
