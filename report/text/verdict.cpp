@@ -85,8 +85,8 @@ std::string reason(Verdict verdict, const std::vector<Check>& checks) {
                          worst.name, standing(worst),
                          onlyFastFails(checks) ? " The fast kernels that users call are wrong; the NOC holds." : "");
     case Verdict::inconclusive:
-      return fmt::format("Nothing failed, but {} of {} cannot be judged here, among them {}.", count, plural(total),
-                         worst.name);
+      return fmt::format("Nothing failed, but {} of {} cannot be judged here{} {}.", count, plural(total),
+                         count == 1 ? ":" : ", among them", worst.name);
     case Verdict::pass:
     case Verdict::not_applicable:
       break;
@@ -126,21 +126,29 @@ std::string driftText(const EffortDeviation& deviation) {
                      plainQuantity(deviation.drift, "m"), deviation.duration);
 }
 
+/// Rounds up to so many digits, so that the rounded value holds, too.
+std::string roundedUp(double value, int digits) {
+  if (!(value > 0 && std::isfinite(value))) return fmt::format("{:g}", value);
+  const double digit = std::pow(10.0, std::floor(std::log10(value)) - (digits - 1));
+  double steps = std::floor(value / digit);
+  while (leadingNumber(fmt::format("{:.{}g}", steps * digit, digits)).value < value) ++steps;
+  return fmt::format("{:.{}g}", steps * digit, digits);
+}
+
 /// Two numbers: smaller errors, or shorter ones between the instants, may be there.
 std::string seenText(const EffortDeviation& deviation, const std::string& effort) {
   if (!std::isfinite(deviation.seen)) return "";
-  const std::string lasting =
-      deviation.seen_for > 0 ? " that lasts longer than " + plainQuantity(deviation.seen_for, "s") : "";
-  return fmt::format(" An error of {:.1g} of the largest {}{} would have been seen.", deviation.seen, effort, lasting);
+  if (deviation.seen >= 1) return fmt::format(" An error as large as the largest {} would not have been seen.", effort);
+  const std::string where = deviation.seen_for > 0 ? "that lasts longer than " + plainQuantity(deviation.seen_for, "s")
+                                                   : "at one of the judged instants";
+  return fmt::format(" An error of {} of the largest {} {} would have been seen.", roundedUp(deviation.seen, 1), effort,
+                     where);
 }
 
-/// Rounds up, so that the rounded value passes, too.
-std::string roundedUp(double value) {
-  if (!(value > 0 && std::isfinite(value))) return fmt::format("{:g}", value);
-  const double digit = std::pow(10.0, std::floor(std::log10(value)) - 4);
-  double steps = std::floor(value / digit);
-  while (leadingNumber(fmt::format("{:.5g}", steps * digit)).value < value) ++steps;
-  return fmt::format("{:.5g}", steps * digit);
+/// Zeros pass with a tolerance of 1, so --rtol refuses it.
+std::string toleranceText(const EffortDeviation& deviation) {
+  const double smallest = deviation.smallestRelative();
+  return smallest >= 1 ? "no --rtol would pass" : "the smallest --rtol that would pass is " + roundedUp(smallest, 5);
 }
 
 }  // namespace
@@ -157,13 +165,12 @@ std::string deviationSentence(const ValidationResult& result) {
   constexpr double right = 1e-6;  // efforts with larger errors are not called right
   const std::string without =
       deviation.without.empty() ? "" : fmt::format("Against all formulations but {}'s: ", deviation.without);
-  return fmt::format(
-      "{}{} {}: the largest deviation is {} {} of {:.6g} {}, {} at t = {:.4g} s; {}the smallest --rtol that would pass "
-      "is {}.{}",
-      without, deviation.relative() <= right || deviation.largest == 0 ? "Right to" : "Off by at most",
-      shareText(deviation.relative()), fmt::format(deviation.largest < 1000 ? "{:.3g}" : "{:.0f}", deviation.largest),
-      deviation.unit, deviation.largest_effort, deviation.unit, deviation.where, deviation.t, driftText(deviation),
-      roundedUp(deviation.smallestRelative()), seenText(deviation, result.effort));
+  return fmt::format("{}{} {}: the largest deviation is {} {} of {:.6g} {}, {} at t = {:.4g} s; {}{}.{}", without,
+                     deviation.relative() <= right || deviation.largest == 0 ? "Right to" : "Off by at most",
+                     shareText(deviation.relative()),
+                     fmt::format(deviation.largest < 1000 ? "{:.3g}" : "{:.0f}", deviation.largest), deviation.unit,
+                     deviation.largest_effort, deviation.unit, deviation.where, deviation.t, driftText(deviation),
+                     toleranceText(deviation), seenText(deviation, result.effort));
 }
 
 }  // namespace ursula
