@@ -21,7 +21,9 @@ struct Questions {
 template <class T>
 std::vector<T> repeated(const std::vector<T>& of) {
   std::vector<T> out;
-  for (std::size_t k = 0; k < in_batch && !of.empty(); ++k) out.push_back(of[k % of.size()]);
+  if (of.empty()) return out;
+  out.reserve(in_batch);
+  for (std::size_t k = 0; k < in_batch; ++k) out.push_back(of[k % of.size()]);
   return out;
 }
 

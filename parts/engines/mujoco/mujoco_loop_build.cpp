@@ -49,7 +49,7 @@ std::string jointsOf(const LegChain& chain, int link) {
 std::string describe(const Structure& structure) {
   const std::vector<LegKind>& kinds = structure.kinds;
   const std::string inertial = R"(<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>)";
-  std::string text = R"(<mujoco><worldbody>)";
+  std::string text = R"(<mujoco><size nstack="200000"/><worldbody>)";  // its own guess is 11 MB for each machine
   for (std::size_t leg = 0; leg < kinds.size(); ++leg) {
     Leg of_kind;
     of_kind.kind = kinds[leg];
