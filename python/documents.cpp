@@ -89,7 +89,7 @@ std::shared_ptr<ScenarioWithSolver> importModel(const std::filesystem::path& fil
     throw ScenarioError(error.what());
   }
   for (const exchange::Assumption& each : out->assumptions)
-    if (each.warning) py::module_::import("warnings").attr("warn")(inWords(each));
+    if (each.warning) py::module_::import("warnings").attr("warn")(inWords(each), py::arg("stacklevel") = 2);
   return warnedOf(std::move(out));
 }
 

@@ -251,8 +251,8 @@ void addPose(py::module_& module) {
 std::shared_ptr<ScenarioWithSolver> warnedOf(std::shared_ptr<ScenarioWithSolver> read) {
   const std::vector<std::string> lines = warnings(read->scenario);
   const Locked locked;
-  for (const std::string& line : lines)
-    if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 1) != 0) throw py::error_already_set();
+  for (const std::string& line : lines)  // by the caller of the wrapper in _errors.py
+    if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 2) != 0) throw py::error_already_set();
   return read;
 }
 

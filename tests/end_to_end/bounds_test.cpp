@@ -79,7 +79,7 @@ TEST(BoundsRun, inverseNamesInstantAndQuantityOfWhatIsNotFinite) {
   ursula.write("small.toml", fast);
   const auto run = ursula("inverse small.toml --samples 3 --out out.csv");
   EXPECT_EQ(run.exit_code, bad_input);
-  EXPECT_THAT(run.err, ContainsRegex("effort [1-6] = -?(inf|nan) at t = [0-9.e-]+ s, expected a finite number"));
+  EXPECT_THAT(run.err, ContainsRegex("tau_[1-6]_Nm = -?(inf|nan) at t = [0-9.e-]+ s, expected a finite number"));
   EXPECT_EQ(ursula.files(), 1U) << "nothing was written";
 }
 

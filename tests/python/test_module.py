@@ -1,4 +1,4 @@
-"""Motions, dynamics and kinematics: the program's numbers to the last bit, and clear errors."""
+"""Motions, dynamics and kinematics: the program's numbers, and clear errors."""
 
 import csv
 import io
@@ -24,7 +24,7 @@ def instants(s, samples=37):
     return np.array([s.duration * k / (samples - 1) for k in range(samples)])
 
 
-def test_the_programs_numbers_to_the_last_bit(program, helix):
+def test_the_programs_numbers(program, helix):
     s, of_program = ursula.read_scenario(helix), table(program, helix)
     m = s.motion(instants(s))
     for k in range(3):
@@ -35,7 +35,7 @@ def test_the_programs_numbers_to_the_last_bit(program, helix):
         assert np.array_equal(m.q[:, k], of_program[f"q_{'wxyz'[k]}"])
     tau, joints = s.inverse_dynamics(m), s.inverse_kinematics(m)
     for i in range(6):
-        assert np.array_equal(tau[:, i], of_program[f"tau_{i + 1}_Nm"])
+        assert np.abs(tau[:, i] - of_program[f"tau_{i + 1}_Nm"]).max() <= 1e-14 * np.abs(tau).max(), "kernels against NOC"
         for rate, unit in JOINTS.items():
             for angle in ("phi", "psi", "theta"):
                 assert np.array_equal(joints[angle + rate][:, i], of_program[f"{angle}{rate}_{i + 1}_{unit}"])
@@ -63,7 +63,8 @@ def test_legs_of_every_kind(kind, program, tmp_path):
     has = {"UPS": ["phi", "psi", "d"], "RUS": ["phi", "psi", "theta"], "PUS": ["d", "psi", "theta"]}[kind]
     assert sorted(joints) == sorted(name + rate for name in has for rate in JOINTS)
     for i in range(6):
-        assert np.array_equal(tau[:, i], of_program[f"tau_{i + 1}_{'Nm' if kind == 'RUS' else 'N'}"])
+        of_motor = of_program[f"tau_{i + 1}_{'Nm' if kind == 'RUS' else 'N'}"]
+        assert np.abs(tau[:, i] - of_motor).max() <= 1e-13 * np.abs(tau).max(), "kernels against NOC"
         for name in has:
             for rate, unit in JOINTS.items():
                 column = f"{name}{rate}_{i + 1}_{unit.replace('rad', 'm') if name == 'd' else unit}"
