@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr mode_t anybody_writes = S_IWUSR | S_IWGRP | S_IWOTH, all_bits = 07777, plain_bits = 0777;
-constexpr const char* kind = "file";
+constexpr const char* file_kind = "file";
 
 fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : "."; }
 
@@ -49,7 +49,7 @@ bool isRootsOwn(const fs::path& folder) {
 /// Removes files whose process is gone and thus holds no lock. Nobody else removes a file that is locked here, so its
 /// name cannot pass to another file before the removal.
 void sweepTemporaries(const fs::path& folder) {
-  const std::string prefix = std::string(".ursula-") + kind + "-";
+  const std::string prefix = std::string(".ursula-") + file_kind + "-";
   std::error_code error;
   for (fs::directory_iterator each(folder, error), end; !error && each != end; each.increment(error)) {
     const fs::path& name = each->path();
@@ -88,7 +88,7 @@ OutputFile::OutputFile(fs::path file) : file_(std::move(file)), end_(endOfLinks(
 /// Retries, because another process may remove the file as abandoned before it is locked.
 void OutputFile::openTemporary() {
   for (;;) {
-    temporary_ = temporaryIn(folderOf(end_), kind);
+    temporary_ = temporaryIn(folderOf(end_), file_kind);
     descriptor_ = fresh_.makeFile(temporary_);
     if (descriptor_ < 0 && errno == EEXIST) continue;
     if (descriptor_ < 0 || (tryLock(descriptor_) != Lock::taken && isStill(descriptor_, temporary_))) return;

@@ -121,7 +121,7 @@ Eigen::RowVectorXd StampedRows::moved(double t, std::size_t near, const Window& 
 Eigen::RowVectorXd StampedRows::straight(double t, std::size_t near) const {
   const std::size_t before = at(near) > t && near > 0 ? near - 1 : near,
                     after = std::min(before + 1, there_.size() - 1);
-  const double whole = at(after) - at(before), share = whole > 0 ? (t - at(before)) / whole : 0;
+  const double between = at(after) - at(before), share = between > 0 ? (t - at(before)) / between : 0;
   return row(before) + share * (row(after) - row(before));
 }
 

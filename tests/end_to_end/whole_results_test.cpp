@@ -223,10 +223,10 @@ TEST(WholeResults, replaceNothingThatIsRead) {
   const std::string samples = quickScenario("one");
   ursula.write("sampled.toml", samples.substr(0, samples.find("[trajectory]")) +
                                    "[trajectory]\nkind = \"samples\"\nfile = \"out/timeseries.csv\"\n");
-  for (const char* copy : {"out/efforts.csv", "out/engines.csv"})
+  for (const char* copy : {"out/efforts.csv", "side/engines.csv"})
     ursula.write(copy, TemporaryFolder::read(ursula.folder() / "out/timeseries.csv"));
   ursula.write("motion.toml",
-               replaced(TemporaryFolder::read(ursula.folder() / "sampled.toml"), "timeseries", "engines"));
+               replaced(TemporaryFolder::read(ursula.folder() / "sampled.toml"), "out/timeseries", "side/engines"));
   ASSERT_EQ(ursula("check sampled.toml").exit_code, 0) << ursula("check sampled.toml").err;
   const auto before = contents(ursula.folder());
   for (const char* call :

@@ -108,7 +108,7 @@ TEST(Reason, namesTheWorstCheckAndHowFarItIs) {
   EXPECT_EQ(sentence(test::failedSample()),
             "3 of 9 checks failed, the worst torque.pointwise, which is at 1.01e+11 times its limit.");
   EXPECT_EQ(sentence(test::inconclusiveSample()),
-            "Nothing failed, but 1 of 8 checks cannot be judged here, among them replay.orientation.");
+            "Nothing failed, but 1 of 8 checks cannot be judged here: replay.orientation.");
   EXPECT_EQ(reason(Verdict::fail, {}), "No check was made.");
 }
 

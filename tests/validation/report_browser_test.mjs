@@ -70,7 +70,7 @@ for (const [folder, legs] of [["passed", "six URS legs"], ["external", "three UP
 
 const isInside = ({ left, right, top, bottom }) => Math.min(left, top, 1 - right, 1 - bottom) > 0.005;
 
-for (const folder of ["passed", "failed", "external", "flight-simulator", "hexa", "hexaglide"])
+for (const folder of ["passed", "external", "flight-simulator", "hexa", "hexaglide"])
   test(`machine, labels and path of ${folder} fit into the stage at every width`, async () => {
     const { page } = await opened(`${folder}/report.html`);
     await page.locator(".screen canvas").waitFor();
