@@ -223,6 +223,7 @@ TEST(WholeResults, replaceNothingThatIsRead) {
   const std::string samples = quickScenario("one");
   ursula.write("sampled.toml", samples.substr(0, samples.find("[trajectory]")) +
                                    "[trajectory]\nkind = \"samples\"\nfile = \"out/timeseries.csv\"\n");
+  fs::create_directory(ursula.folder() / "side");
   for (const char* copy : {"out/efforts.csv", "side/engines.csv"})
     ursula.write(copy, TemporaryFolder::read(ursula.folder() / "out/timeseries.csv"));
   ursula.write("motion.toml",
