@@ -253,6 +253,7 @@ void readSdfGravity(const Element& top, int minor, ModelGraph& graph) {
   const Element* gravity = onlyChild(top, "gravity");
   eachChild(top, "physics", [&](const Element& physics) {
     const Element* own = onlyChild(physics, "gravity");
+    if (own != nullptr && gravity != nullptr) refuse(*own, "a second <gravity>, expected one");
     if (own != nullptr && minor > 5) {
       graph.assumptions.push_back(
           {"<gravity> of <physics> has no meaning from SDF 1.6 on and was left out, as by "
@@ -261,7 +262,6 @@ void readSdfGravity(const Element& top, int minor, ModelGraph& graph) {
            "m/s²"});
       return;
     }
-    if (own != nullptr && gravity != nullptr) refuse(*own, "a second <gravity>, expected one");
     if (own != nullptr) gravity = own;
   });
   if (gravity != nullptr)
