@@ -75,6 +75,11 @@ void requireApart(const Scenario& scenario, std::initializer_list<std::string> w
         throw UsageError(fmt::format("{}: {} reads this file, expected another file", file, scenario.file.string()));
 }
 
+void refuseToReplace(const std::string& folder, const std::filesystem::path& read) {
+  throw UsageError(
+      fmt::format("--out {}: results would replace {}, which is read, expected another folder", folder, read.string()));
+}
+
 void requireKept(const Scenario& scenario, const std::string& folder, std::initializer_list<const char*> written,
                  const std::string& also) {
   std::vector<std::filesystem::path> inputs = filesNamedBy(scenario);
@@ -83,8 +88,7 @@ void requireKept(const Scenario& scenario, const std::string& folder, std::initi
   for (const std::filesystem::path& read : inputs)
     for (const char* name : written)
       if (namesFile(read.string()) && areSame((std::filesystem::path(folder) / name).string(), read.string()))
-        throw UsageError(fmt::format("--out {}: results would replace {}, which is read, expected another folder",
-                                     folder, read.string()));
+        refuseToReplace(folder, read);
 }
 
 void requireOutside(std::initializer_list<std::string> compared, std::initializer_list<std::string> written) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <initializer_list>
 #include <string>
 
@@ -14,6 +15,9 @@ std::string namedTwice(const CLI::App& app);
 
 /// Throws UsageError if one of the options' values `written` is a file that the scenario names, such as its samples.
 void requireApart(const Scenario& scenario, std::initializer_list<std::string> written);
+
+/// Throws UsageError: results in `folder` would replace `read`.
+[[noreturn]] void refuseToReplace(const std::string& folder, const std::filesystem::path& read);
 
 /// Throws UsageError if one of the results `written` into `folder` would replace a file that is read: the scenario's,
 /// one that it names, or `also`.

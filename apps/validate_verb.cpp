@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "apps/files_apart.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/suite/suite.h"
@@ -194,8 +195,7 @@ int validateAll(const ValidateOptions& options) {
     if (member.scenario) setTolerance(options.tolerance, *member.scenario);
   const std::filesystem::path dir = folderOf(options, members);
   if (const auto input = report::replacedInput(inputsOf(options, members), dir); !input.empty())
-    throw UsageError(fmt::format("--out {}: results would replace {}, which is read, expected another folder",
-                                 dir.string(), input.string()));
+    refuseToReplace(dir.string(), input);
   return isSuite(options, members) ? validateSuite(members, options, dir)
                                    : validateOne(*members.front().scenario, options, dir);
 }

@@ -39,7 +39,7 @@ class Finder {
   /// Prefers driven coordinates to poses, and efforts to currents.
   Columns log() {
     requireAll(ColumnQuantity::time, 1);
-    // Of two that are not whole, what is missing is said of that which lacks less.
+    // If neither is whole, the error names what is missing of the one that lacks less.
     const bool driven = missingOf(ColumnQuantity::driven, motor_count) <= missingOfPoses() && missingOfPoses() > 0;
     out_.has_poses = !driven && missingOf(ColumnQuantity::driven, motor_count) > 0;
     out_.has_poses ? requirePoses() : requireAll(ColumnQuantity::driven, motor_count);

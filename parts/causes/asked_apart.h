@@ -14,7 +14,7 @@ struct AskedApart {
   std::vector<Vector6d> found, expected;  ///< of the solver, of the NOC: N·m or N
   std::vector<double> rounding;           ///< possible difference of right efforts, N·m or N
   std::vector<TermError> terms;           ///< relative errors of the parts of its efforts
-  /// By how much each motor's answers to nearly the same question jump, N·m or N: more than rounding where digits are
+  /// The jumps of each motor's answers between nearly equal questions, N·m or N; larger than rounding if digits are
   /// lost.
   Vector6d grain = Vector6d::Zero();
   /// Its answers when instants of the motion are asked again one by one: N·m or N.

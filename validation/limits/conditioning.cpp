@@ -296,7 +296,7 @@ Conditioning ConditioningProbe::at(const Motion<double>& motion) {
 
 namespace {
 
-/// Who is too noisy for a level, in words; empty for nobody. A quantity's noise enters others, too.
+/// Names the formulation that is too noisy for a level; empty if none is. One quantity's noise enters others, too.
 std::string causeOfNoise(const Conditioning& at) {
   for (std::size_t q = 0; q < rounded_count; ++q)
     if (at.noisy[q] != Noisy::nobody)

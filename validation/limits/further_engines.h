@@ -9,7 +9,7 @@
 
 namespace ursula {
 
-/// As many further formulations can be compared in one run.
+/// The largest number of further formulations in one run.
 constexpr std::size_t most_further_engines = 6;
 
 /// One object per further formulation, in the order of furtherEngines(); the places behind them stay empty.

@@ -37,7 +37,7 @@ IntegrationError integrationError(const Replay& fine, const Replay& coarse) {
   IntegrationError out;
   IntegrationError::At largest;
   const double reached = coarse.steps.empty() ? 0 : coarse.steps.back().t;
-  // Of an error that should be 0, longer steps show the size, and shorter ones the change.
+  // An error that should be 0 shows its size in longer steps, and its change in shorter ones.
   const auto shown = [shorter = coarse.accepted > fine.accepted](double other, double here) {
     return shorter ? larger(std::abs(other), std::abs(other - here)) : std::abs(other);
   };

@@ -189,7 +189,7 @@ Replay replayedByHalves(const Scenario& scenario, const ReplayPlan& plan, const 
   return replay(scenario, plan.torques, settings);
 }
 
-/// With fewer steps by less than this, the difference of two replays is not the coarser one's error.
+/// Two replays differ by the error of the coarser one only if it takes fewer steps, by this factor at least.
 constexpr double fewer_steps = 1.1;
 
 bool hasLongerSteps(const Replay& coarse, const Replay& fine) {
