@@ -70,19 +70,9 @@ constexpr std::size_t motion_stride = 25, vector_stride = 6;
 
 template <class Isa>
 Motion<Pack<Isa>> motionsAt(const double* from) {
-  Motion<Pack<Isa>> out;
   const auto columns = columnsAt<Isa, 24>(from + 1, motion_stride);  // skips the instant, which is not needed
   const Pack<Isa>* next = columns.data();
-  const auto read = [&next](auto& matrix) {
-    for (Eigen::Index k = 0; k < matrix.size(); ++k) matrix.data()[k] = *next++;
-  };
-  read(out.p);
-  read(out.Q);
-  read(out.omega);
-  read(out.p_dot);
-  read(out.omega_dot);
-  read(out.p_ddot);
-  return out;
+  return motionOf<Isa>([&next] { return *next++; });
 }
 
 template <class Isa>

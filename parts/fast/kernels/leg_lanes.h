@@ -13,6 +13,22 @@
 
 namespace ursula::kernel {
 
+/// A motion from its numbers in the order of memory, without the instant.
+template <class Isa, class Next>
+Motion<Pack<Isa>> motionOf(Next next) {
+  Motion<Pack<Isa>> out;
+  const auto read = [&next](auto& matrix) {
+    for (Eigen::Index k = 0; k < matrix.size(); ++k) matrix.data()[k] = next();
+  };
+  read(out.p);
+  read(out.Q);
+  read(out.omega);
+  read(out.p_dot);
+  read(out.omega_dot);
+  read(out.p_ddot);
+  return out;
+}
+
 template <class Isa>
 class LegLanes {
  public:
@@ -56,18 +72,8 @@ class LegLanes {
  private:
   static constexpr int lanes = P::lanes, groups = (6 + lanes - 1) / lanes;
 
-  static Motion<P> motionOf(const double* number) {
-    Motion<P> out;
-    const auto read = [&number](auto& matrix) {
-      for (Eigen::Index k = 0; k < matrix.size(); ++k) matrix.data()[k] = P(*++number);  // skips the instant
-    };
-    read(out.p);
-    read(out.Q);
-    read(out.omega);
-    read(out.p_dot);
-    read(out.omega_dot);
-    read(out.p_ddot);
-    return out;
+  static Motion<P> sameInAllLanes(const double* number) {
+    return motionOf<Isa>([&number] { return P(*++number); });  // skips the instant
   }
   /// Sets the lanes from the n-th on to 0.
   static P upTo(int n, const P& value) {
@@ -85,7 +91,7 @@ class LegLanes {
   }
 
   __attribute__((flatten)) bool inverseLoads(const double* numbers, LegSums& out) const {
-    const Motion<P> motion = motionOf(numbers);
+    const Motion<P> motion = sameInAllLanes(numbers);
     const RigidMotion<P> carried(motion);
     BatchGuard<Isa> guard;
     MovingLegs<P> legs;
@@ -108,7 +114,7 @@ class LegLanes {
   }
 
   __attribute__((flatten)) bool directLoads(const double* numbers, const double* efforts, LegSums& out) const {
-    Motion<P> motion = motionOf(numbers);
+    Motion<P> motion = sameInAllLanes(numbers);
     motion.omega_dot.setZero();
     motion.p_ddot.setZero();
     const RigidMotion<P> carried(motion);
