@@ -298,7 +298,8 @@ TEST(Sentence, saysWhatWouldHaveBeenSeen) {
   result.deviation->largest_effort = 10;
   EXPECT_THAT(deviationSentence(result), Not(HasSubstr("would have been seen")));
   result.deviation->seen = 3e-13;
-  EXPECT_THAT(deviationSentence(result), HasSubstr("An error of 3e-13 of the largest torque would have been seen."));
+  EXPECT_THAT(deviationSentence(result),
+              HasSubstr("An error of 3e-13 of the largest torque at one of the judged instants would have been seen."));
   result.deviation->seen_for = 5.2e-4;
   EXPECT_THAT(deviationSentence(result),
               HasSubstr("An error of 3e-13 of the largest torque that lasts longer than 520 µs would have been seen."));
