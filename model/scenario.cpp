@@ -88,16 +88,20 @@ void readAcceptance(const TomlSection& table, const std::string& prefix, Scenari
 Scenario assemble(const TomlSection& document) {
   document.allowOnly(scenarioTable(""));
   Scenario scenario;
-  scenario.name = readName(document);
+  readJudging(document, scenario);
   scenario.manipulator = std::make_shared<Manipulator>(readManipulator(document.requiredSection("manipulator")));
   scenario.trajectory = readTrajectory(document.requiredSection("trajectory"));
   if (const auto table = document.section("load")) scenario.load = readLoad(*table);
-  if (const auto table = document.section("simulation")) scenario.simulation = readSimulation(*table);
-  if (const auto table = document.section("acceptance")) readAcceptance(*table, "", scenario);
   return scenario;
 }
 
 }  // namespace
+
+void readJudging(const TomlSection& document, Scenario& scenario) {
+  scenario.name = readName(document);
+  if (const auto table = document.section("simulation")) scenario.simulation = readSimulation(*table);
+  if (const auto table = document.section("acceptance")) readAcceptance(*table, "", scenario);
+}
 
 Scenario parseScenario(const std::string& text, const std::filesystem::path& file) {
   toml::table table = parseToml(text, file.string());

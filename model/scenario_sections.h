@@ -13,6 +13,8 @@
 
 namespace ursula {
 
+/// Reads what every scenario has: name, simulation and acceptance.
+void readJudging(const TomlSection& document, Scenario& scenario);
 ManipulatorParameters readManipulator(const TomlSection& manipulator);
 std::shared_ptr<const Trajectory> readTrajectory(const TomlSection& trajectory);
 std::shared_ptr<const Load> readLoad(const TomlSection& table);

@@ -12,6 +12,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "nocsolver/noc/body_equations.h"
 #include "nocsolver/noc/noc_shaping_impl.h"
 
 namespace ursula {
@@ -60,18 +61,13 @@ BodyTensors<S> Noc<S>::tensors(const NocWorkspace<S>& work) const {
 /// Mᵢ x of (29), (30b).
 template <class S>
 Vector6<S> Noc<S>::M(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const {
-  Vector6<S> out;
-  out << work.I_B[legs::at(body)] * x.template head<3>(), massOf(body) * x.template tail<3>();  // (paper, eq. 29)
-  return out;
+  return timesM(work.I_B[legs::at(body)], massOf(body), x);  // (paper, eq. 29)
 }
 
 /// Wᵢ x of (29), (30b).
 template <class S>
 Vector6<S> Noc<S>::W(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const {
-  const Vector3<S> omega = work.bodies[legs::at(body)].twist.template head<3>();
-  Vector6<S> out = Vector6<S>::Zero();
-  out.template head<3>() = omega.cross(Vector3<S>(x.template head<3>()));  // (paper, eq. 29)
-  return out;
+  return timesW(Vector3<S>(work.bodies[legs::at(body)].twist.template head<3>()), x);  // (paper, eq. 29)
 }
 
 template <class S>

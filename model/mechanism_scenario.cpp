@@ -1,0 +1,191 @@
+#include "model/mechanism_scenario.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/csv.h"
+#include "base/errors.h"
+#include "base/text.h"
+#include "model/mechanism_keys.h"
+#include "model/scenario_files.h"
+#include "model/scenario_sections.h"
+#include "model/toml_reader.h"
+
+namespace ursula {
+namespace {
+
+std::vector<double> numbersOf(const TomlSection& table, const char* key) {
+  std::vector<double> out;
+  const toml::node* node = table.table().get(key);
+  if (node == nullptr) return out;
+  if (!node->is_array()) table.fail(key, "expected an array of numbers");
+  for (const toml::node& each : *node->as_array()) {
+    const auto number = each.value<double>();
+    if (!number || !std::isfinite(*number)) table.fail(key, "expected an array of finite numbers");
+    out.push_back(*number);
+  }
+  return out;
+}
+
+MechanismChoices readChoices(const TomlSection& table) {
+  MechanismChoices out;
+  out.motors = table.readStrings("motors").value_or(std::vector<std::string>());
+  out.close = table.readStrings("close").value_or(std::vector<std::string>());
+  out.leave_out = table.readStrings("leave_out").value_or(std::vector<std::string>());
+  table.read("base", out.base);
+  if (Vector3d gravity; table.read("gravity", gravity)) out.gravity = gravity;
+  return out;
+}
+
+/// The motors' count and units decide how a motion is read.
+void requireCount(const TomlSection& table, std::size_t given, const Mechanism& mechanism) {
+  if (given == mechanism.motorCount()) return;
+  std::string names;
+  for (std::size_t k = 0; k < mechanism.motorCount(); ++k)
+    names += (k == 0 ? "" : ", ") + shown(mechanism.motor(k).name);
+  table.fail("motors",
+             fmt::format("{} entries, expected {}, one for each motor: {}", given, mechanism.motorCount(), names));
+}
+
+std::unique_ptr<MotorTrajectory> readFourier(const TomlSection& table, const Mechanism& mechanism) {
+  table.allowOnly(mechanismTable("trajectory.fourier"));
+  double duration = 0, period = 0;
+  table.require("duration", duration);
+  if (!table.read("period", period)) period = duration;
+  std::vector<FourierSeries> motors;
+  for (const TomlSection& each : table.sections("motors")) {
+    each.allowOnly(mechanismTable("trajectory.fourier.motors"));
+    FourierSeries series;
+    each.read("offset", series.offset);
+    series.sin = numbersOf(each, "sin");
+    series.cos = numbersOf(each, "cos");
+    motors.push_back(series);
+  }
+  requireCount(table, motors.size(), mechanism);
+  return makeFourier(duration, period, std::move(motors));
+}
+
+std::unique_ptr<MotorTrajectory> readHold(const TomlSection& table, const Mechanism& mechanism) {
+  table.allowOnly(mechanismTable("trajectory.hold"));
+  double duration = 0;
+  table.require("duration", duration);
+  const std::vector<double> q = numbersOf(table, "motors");
+  requireCount(table, q.size(), mechanism);
+  return makeMotorHold(duration, Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size())));
+}
+
+/// Returns the column of one quantity of motor k, by number or by the joint's own name; null if there is none.
+const std::vector<double>* columnOf(const CsvTable& table, const Mechanism& mechanism, std::size_t k, const char* of) {
+  const std::string named = motorColumn(mechanism, k, of);
+  if (const auto* found = table.find(named)) return found;
+  const std::string number = std::to_string(k + 1);
+  const std::string unit = named.substr(named.find('_' + number + '_') + number.size() + 1);
+  const std::string joint = mechanism.motor(k).name;
+  return table.find(std::string(of) == "q" ? joint + unit : fmt::format("{}_{}{}", of, joint, unit));
+}
+
+/// Reads one quantity of all motors, a row for each instant; empty if no motor has it.
+Eigen::MatrixXd columnsOf(const CsvTable& table, const Mechanism& mechanism, const char* of, bool required) {
+  Eigen::MatrixXd out;
+  const auto n = static_cast<Eigen::Index>(mechanism.motorCount());
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const std::vector<double>* column = columnOf(table, mechanism, static_cast<std::size_t>(k), of);
+    if (column == nullptr && !required && k == 0) return out;
+    if (column == nullptr) column = &table.at(motorColumn(mechanism, static_cast<std::size_t>(k), of));
+    if (k == 0) out.resize(static_cast<Eigen::Index>(column->size()), n);
+    out.col(k) = Eigen::Map<const Eigen::VectorXd>(column->data(), static_cast<Eigen::Index>(column->size()));
+  }
+  return out;
+}
+
+std::unique_ptr<MotorTrajectory> readMotorSamples(const TomlSection& table, const Mechanism& mechanism) {
+  table.allowOnly(mechanismTable("trajectory.samples"));
+  std::string name;
+  table.require("file", name);
+  std::filesystem::path file = name;
+  if (file.is_relative()) file = std::filesystem::path(table.file()).parent_path() / file;
+  const CsvTable read = readCsv(file);
+  const Eigen::MatrixXd rates = columnsOf(read, mechanism, "qdot", false);
+  const Eigen::MatrixXd accelerations = columnsOf(read, mechanism, "qddot", false);
+  try {
+    return makeMotorSamples(read.at("t_s"), columnsOf(read, mechanism, "q", true), rates, accelerations);
+  } catch (const InvalidParameter& refusal) {
+    throw CsvError(fmt::format("{}: error: {}: {}, expected {}", file.string(), refusal.place(), refusal.value(),
+                               refusal.bound()));
+  }
+}
+
+std::unique_ptr<MotorTrajectory> readMotion(const TomlSection& table, const Mechanism& mechanism) {
+  const auto kind = table.readChoice(mechanismTable("trajectory").key("kind"));
+  if (!kind) table.missing("kind", "'fourier', 'samples' or 'hold'");
+  switch (*kind) {
+    case 0:
+      return readFourier(table, mechanism);
+    case 1:
+      return readMotorSamples(table, mechanism);
+    default:
+      return readHold(table, mechanism);
+  }
+}
+
+void assemble(const TomlSection& document, ModelReader reader, MechanismScenario& out) {
+  document.allowOnly(mechanismTable(""));
+  Scenario common;
+  readJudging(document, common);
+  out.name = common.name;
+  out.simulation = common.simulation;
+  out.acceptance = common.acceptance;
+  out.tolerance = common.tolerance;
+  const TomlSection table = document.requiredSection("mechanism");
+  table.allowOnly(mechanismTable("mechanism"));
+  std::string model, output;
+  table.require("file", model);
+  table.read("output", output);
+  out.model = model;
+  if (out.model.is_relative()) out.model = out.file.parent_path() / out.model;
+  if (reader == nullptr) table.fail("file", "this build has no reader of models; ./dev build adds it");
+  out.read = reader(out.model, readChoices(table));
+  out.mechanism = std::make_shared<Mechanism>(out.read.machine, output);
+  out.trajectory = readMotion(document.requiredSection("trajectory"), *out.mechanism);
+}
+
+}  // namespace
+
+bool isMechanism(const std::string& text) {
+  try {
+    return parseToml(text, "").contains("mechanism");
+  } catch (const ScenarioError&) {
+    return false;
+  }
+}
+
+MechanismScenario parseMechanism(const std::string& text, const std::filesystem::path& file, ModelReader reader) {
+  const toml::table table = parseToml(text, file.string());
+  const TomlSection document(table, "", file.string());
+  MechanismScenario out;
+  out.file = file;
+  out.text = text;
+  try {
+    assemble(document, reader, out);
+    return out;
+  } catch (const PlacedError& error) {
+    throw error.in(text);
+  } catch (const InvalidParameter& refusal) {
+    throw located(refusal, document).in(text);
+  }
+}
+
+MechanismScenario readMechanism(const std::filesystem::path& file, ModelReader reader) {
+  return parseMechanism(scenarioText(file), file, reader);
+}
+
+std::string motorColumn(const Mechanism& mechanism, std::size_t k, const char* quantity) {
+  const bool slides = mechanism.motor(k).slides();
+  const std::string of = quantity;
+  if (of == "tau") return fmt::format("tau_{}_{}", k + 1, mechanism.effortUnit(k));
+  const char* power = of == "q" ? "" : of == "qdot" ? "_s" : "_s2";
+  return fmt::format("{}_{}_{}{}", of, k + 1, slides ? "m" : "rad", power);
+}
+
+}  // namespace ursula

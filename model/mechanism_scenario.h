@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/mechanism.h"
+#include "model/motor_trajectory.h"
+#include "model/scenario.h"
+
+namespace ursula {
+
+/// What `[mechanism]` says beside its file; as the options of `import`.
+struct MechanismChoices {
+  std::vector<std::string> motors;  ///< names of joints; empty for those that the file drives
+  std::vector<std::string> close;   ///< "A:B", two links whose frame origins a ball joins
+  std::string base;                 ///< a body that stands still, or empty
+  std::vector<std::string> leave_out;
+  std::optional<Vector3d> gravity;
+};
+
+/// A mechanism as a model file describes it, and what was assumed on reading, in sentences.
+struct ModelRead {
+  MechanismParameters machine;
+  std::vector<std::string> assumptions, warnings;
+};
+/// Reads a model file in SDF, MJCF or URDF. A part provides it. Throws InputError with the file's place.
+using ModelReader = ModelRead (*)(const std::filesystem::path& file, const MechanismChoices& choices);
+
+/// A mechanism of any kind, the commanded motion of its motors, and how both are judged.
+struct MechanismScenario {
+  std::string name;
+  std::filesystem::path file;  ///< of the scenario
+  std::string text;            ///< the file as read; its hash is part of the provenance
+  std::filesystem::path model;
+  ModelRead read;
+  std::shared_ptr<const Mechanism> mechanism;
+  std::shared_ptr<const MotorTrajectory> trajectory;
+  SimulationSettings simulation;
+  std::vector<AcceptanceLimit> acceptance;
+  std::optional<EffortTolerance> tolerance;
+};
+
+/// Returns whether a scenario's text has `[mechanism]`. A text that is no TOML has none.
+bool isMechanism(const std::string& text);
+
+/// Reads and checks a whole scenario with `[mechanism]`; `file` names it in errors and anchors relative paths. Throws
+/// ScenarioError, and what `reader` throws.
+MechanismScenario parseMechanism(const std::string& text, const std::filesystem::path& file, ModelReader reader);
+MechanismScenario readMechanism(const std::filesystem::path& file, ModelReader reader);
+
+/// Returns the names of a motor's columns: "q_1_rad", "qdot_1_rad_s", "qddot_1_rad_s2", "tau_1_Nm", or with m and N.
+std::string motorColumn(const Mechanism& mechanism, std::size_t k, const char* quantity);
+
+}  // namespace ursula
