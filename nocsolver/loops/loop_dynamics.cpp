@@ -101,6 +101,25 @@ VectorXd LoopSolver::inverseDynamics(const MotorMotion& motion, const LoopPose& 
   return tau;
 }
 
+VectorXd LoopSolver::effortScale(const LoopWork& work) const {
+  const Impl& own = *impl_;
+  Frames frames(own.tree);
+  frames.place(work.pose);
+  frames.move(work.u, work.u_dot);
+  VectorXd out = work.N.cwiseAbs().transpose() * own.loadForces(frames, work).cwiseAbs();
+  const auto& bodies = own.mechanism.bodies();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (own.tree.element_of_body[b] < 0) continue;
+    const Matrix3d I = tensorOf(bodies[b], work.bodies[b]);
+    const Vector6d momentum = timesM(I, bodies[b].mass, work.bodies[b].twist);
+    Vector6d size = timesM(I, bodies[b].mass, work.bodies[b].twist_rate).cwiseAbs();
+    size.head<3>().array() += momentum.head<3>().norm() * work.bodies[b].twist.head<3>().norm();
+    if (!bodies[b].weightless) size.tail<3>() += bodies[b].mass * own.mechanism.gravity().cwiseAbs();
+    out += work.T[b].cwiseAbs().transpose() * size;
+  }
+  return out;
+}
+
 MatrixXd LoopSolver::inertia(const LoopWork& work) const {
   const Impl& own = *impl_;
   Frames frames(own.tree);

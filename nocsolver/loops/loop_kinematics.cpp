@@ -104,12 +104,11 @@ void LoopSolver::kinematics(const MotorMotion& motion, const LoopPose& near, Loo
   }
 }
 
-LoopMotion::LoopMotion(const LoopSolver& solver, const MotorTrajectory& trajectory)
+LoopMotion::LoopMotion(const LoopSolver& solver, const MotorTrajectory& trajectory, LoopPose start)
     : solver_(&solver), trajectory_(&trajectory) {
-  LoopPose pose = solver.assembled();
-  solver.moveTo(trajectory.at(0).q, pose);
+  solver.moveTo(trajectory.at(0).q, start);
   times_.push_back(0);
-  poses_.push_back(pose);
+  poses_.push_back(std::move(start));
   constexpr int steps = 128;
   for (int k = 0; k < steps; ++k) follow(trajectory.duration() * k / steps, trajectory.duration() * (k + 1) / steps, 0);
 }

@@ -79,6 +79,9 @@ class LoopSolver {
   /// I of (34), motors × motors. Needs the results of inverseDynamics.
   loops::MatrixXd inertia(const LoopWork& work) const;
 
+  /// Returns the size of the terms that cancel in (37), for each motor. Needs the results of inverseDynamics.
+  loops::VectorXd effortScale(const LoopWork& work) const;
+
   /// One coordinate of a joint with its rates, by the file's names and sense; a ball has four numbers and three rates.
   struct JointValue {
     std::string name;  ///< "knee_rad", "ball_w"
@@ -96,7 +99,10 @@ class LoopSolver {
 class LoopMotion {
  public:
   /// Throws LoopError with the instant at which the loops cannot follow. Keeps pointers to its arguments.
-  LoopMotion(const LoopSolver& solver, const MotorTrajectory& trajectory);
+  LoopMotion(const LoopSolver& solver, const MotorTrajectory& trajectory)
+      : LoopMotion(solver, trajectory, solver.assembled()) {}
+  /// Starts from the branch of `start`.
+  LoopMotion(const LoopSolver& solver, const MotorTrajectory& trajectory, loops::LoopPose start);
 
   const LoopSolver& solver() const { return *solver_; }
   const MotorTrajectory& trajectory() const { return *trajectory_; }

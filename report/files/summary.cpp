@@ -89,6 +89,7 @@ std::string summaryJson(const ValidationResult& result) {
   for (const Check& check : result.checks) checks.push_back(checkJson(check));
   const std::string deviation = deviationSentence(result);
   Json summary = {{"scenario", result.scenario},
+                  {"kind", result.kind},
                   {"verdict", name(result.verdict)},
                   {"formulation", name(result.subject.formulation)},
                   {"limits", name(result.limits)},

@@ -66,23 +66,27 @@ std::string whyNot(const CheckRow& check, const Scenario& scenario, const Subjec
   return why.empty() && isLeftOut(check, has) ? "left out by the caller's options" : why;
 }
 
-Check notMadeBy(const CheckRow& check, const Scenario& scenario, const SubjectHas& has) {
-  const std::string why = whyNot(check, scenario, has);
-  if (why.empty() && !has.out_of_time.empty())
-    return notJudgeable(Reason::unfinished, check.name, std::nan(""), std::nan(""), check.unit, "", has.out_of_time);
+Check notMadeBy(const CheckRow& check, const std::string& why, const std::string& out_of_time) {
+  if (why.empty() && !out_of_time.empty())
+    return notJudgeable(Reason::unfinished, check.name, std::nan(""), std::nan(""), check.unit, "", out_of_time);
   return notApplicable(check.name, check.unit, why.empty() ? "the subject has no answer" : why);
 }
 
 }  // namespace
 
 void listEveryCheck(const Scenario& scenario, const SubjectHas& has, ValidationResult& result) {
+  listEveryCheck([&](const CheckRow& check) { return whyNot(check, scenario, has); }, has.out_of_time, result);
+}
+
+void listEveryCheck(const std::function<std::string(const CheckRow&)>& why_not, const std::string& out_of_time,
+                    ValidationResult& result) {
   for (const Check& check : result.checks)
     if (checkRow(check.name) == nullptr) throw std::logic_error(check.name + " has no row in the catalogue of checks");
   std::vector<Check> listed;
   for (const CheckRow& wanted : checkCatalogue()) {
     const auto found = std::find_if(result.checks.begin(), result.checks.end(),
                                     [&wanted](const Check& check) { return check.name == wanted.name; });
-    listed.push_back(found != result.checks.end() ? std::move(*found) : notMadeBy(wanted, scenario, has));
+    listed.push_back(found != result.checks.end() ? std::move(*found) : notMadeBy(wanted, why_not(wanted), out_of_time));
   }
   result.checks = std::move(listed);
 }

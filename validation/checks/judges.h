@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "model/check_catalogue.h"
 #include "model/exact_trajectory.h"
 #include "model/load.h"
 #include "model/scenario.h"
@@ -136,5 +137,9 @@ Check judgeLoadTable(const std::vector<TimedWrench>& rows, const std::function<W
 
 /// Sorts the checks in the order of checkCatalogue() and adds those that do not apply, each with its reason.
 void listEveryCheck(const Scenario& scenario, const SubjectHas& has, ValidationResult& result);
+/// The same by `why_not`, which returns why a check does not apply; empty if it does. Checks that `out_of_time` left out
+/// are unfinished.
+void listEveryCheck(const std::function<std::string(const CheckRow&)>& why_not, const std::string& out_of_time,
+                    ValidationResult& result);
 
 }  // namespace ursula

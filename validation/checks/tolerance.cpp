@@ -135,19 +135,20 @@ void requireTellingTolerance(const Scenario& scenario) {
                   scenario.name, allowed, unit, noun, noun, largest, unit));
 }
 
-void judgeByTolerance(const Scenario& scenario, double between, ValidationResult& result) {
-  if (!scenario.tolerance || !result.deviation) return;  // nothing was compared: the checks say why
-  const EffortTolerance& tolerance = *scenario.tolerance;
+void judgeByTolerance(const std::optional<EffortTolerance>& given, const std::vector<AcceptanceLimit>& acceptance,
+                      double between, ValidationResult& result) {
+  if (!given || !result.deviation) return;  // nothing was compared: the checks say why
+  const EffortTolerance& tolerance = *given;
   EffortDeviation& deviation = *result.deviation;
   deviation.allowed = tolerance.relative * deviation.largest_effort + tolerance.absolute;
   if (deviation.largest_effort > 0) deviation.seen = deviation.allowed / deviation.largest_effort;
-  const char* unit = effortsOf(*scenario.manipulator).unit;
+  const std::string& unit = deviation.unit;
   const std::string whose = fmt::format("the user's tolerance, {:g} of the largest effort, {:.6g} {}, and {:g} {}",
                                         tolerance.relative, deviation.largest_effort, unit, tolerance.absolute, unit);
   for (Check& check : result.checks) {
     if (isOfTorques(check)) judgeByUser(deviation.allowed, whose, check);
     if (!isReported(check) || check.verdict == Verdict::not_applicable) continue;
-    if (isNamed(scenario.acceptance, check.name) ||
+    if (isNamed(acceptance, check.name) ||
         (check.reason == Reason::not_covered && !(between <= deviation.allowed)))
       continue;
     check.verdict = Verdict::not_applicable;
@@ -158,7 +159,7 @@ void judgeByTolerance(const Scenario& scenario, double between, ValidationResult
 
 void conclude(const Scenario& scenario, const SubjectHas& has, double between, ValidationResult& result) {
   listEveryCheck(scenario, has, result);
-  judgeByTolerance(scenario, between, result);
+  judgeByTolerance(scenario.tolerance, scenario.acceptance, between, result);
   judgeByUser(scenario.acceptance, result);
 }
 

@@ -23,11 +23,12 @@ void judgeByUser(double limit, const std::string& whose, Check& check);
 std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const std::vector<Check>& checks,
                                                const OddOne& odd_one = {});
 
-/// Applies the user's tolerance, if the scenario has one, to the largest value of each check of torques. The effect of
+/// Applies the user's tolerance, if there is one, to the largest value of each check of torques. The effect of
 /// such errors on accelerations and replays is reported but not judged, unless [acceptance] names it. `between` is the
 /// possible error between the given instants, in SI, or infinite if the torques do not cover the motion. If it exceeds
 /// the tolerance, the uncovered part stays inconclusive.
-void judgeByTolerance(const Scenario& scenario, double between, ValidationResult& result);
+void judgeByTolerance(const std::optional<EffortTolerance>& tolerance, const std::vector<AcceptanceLimit>& acceptance,
+                      double between, ValidationResult& result);
 
 /// Lists every check, applies the user's tolerance and limits, and sets the verdict. `between` is that of
 /// judgeByTolerance.

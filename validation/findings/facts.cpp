@@ -90,9 +90,9 @@ const char* inWords(Formulation formulation) {
 }
 
 /// The user's tolerance and how the subject was called.
-void addAsked(const Scenario& scenario, ValidationResult& result) {
+void addAsked(const std::optional<EffortTolerance>& users, ValidationResult& result) {
   const auto add = [&result](const char* key, const std::string& text) { result.provenance.emplace_back(key, text); };
-  const EffortTolerance tolerance = scenario.tolerance.value_or(EffortTolerance{});
+  const EffortTolerance tolerance = users.value_or(EffortTolerance{});
   if (tolerance.relative > 0) add("relative tolerance of efforts", fmt::format("{}", tolerance.relative));
   if (tolerance.absolute > 0) add("absolute tolerance of efforts", fmt::format("{}", tolerance.absolute));
   if (tolerance.any) add("any tolerance", "yes");
@@ -100,15 +100,12 @@ void addAsked(const Scenario& scenario, ValidationResult& result) {
   if (result.subject.called_by == CalledBy::solver) add("solver process", result.subject.name);
 }
 
-}  // namespace
-
-ValidationResult emptyResult(const Scenario& scenario, const JudgedSubject& subject) {
+/// Adds what a scenario of either kind asks for, and by which build it was judged.
+template <class AnyScenario>
+void addProvenance(const AnyScenario& scenario, const JudgedSubject& subject, ValidationResult& result) {
   const BuildProvenance& build = buildProvenance();
-  ValidationResult result;
   result.scenario = scenario.name;
   result.subject = subject;
-  result.asked = std::make_shared<const Scenario>(scenario);
-  result.effort = effortNoun(scenario.manipulator->motors());
   result.provenance = {{"scenario file", scenario.file.filename().string()},
                        {"scenario sha1", sha1(scenario.text)},
                        {"subject", subject.name},
@@ -130,7 +127,28 @@ ValidationResult emptyResult(const Scenario& scenario, const JudgedSubject& subj
       {"integrator", name(scenario.simulation.integrator)},
       {"tolerance", fmt::format("{:g}", scenario.simulation.tolerance)}};
   result.provenance.insert(result.provenance.end(), asked.begin(), asked.end());
-  addAsked(scenario, result);
+  addAsked(scenario.tolerance, result);
+}
+
+}  // namespace
+
+ValidationResult emptyResult(const Scenario& scenario, const JudgedSubject& subject) {
+  ValidationResult result;
+  result.asked = std::make_shared<const Scenario>(scenario);
+  result.effort = effortNoun(scenario.manipulator->motors());
+  addProvenance(scenario, subject, result);
+  return result;
+}
+
+ValidationResult emptyResult(const MechanismScenario& scenario, const JudgedSubject& subject) {
+  ValidationResult result;
+  const Mechanism& mechanism = *scenario.mechanism;
+  std::size_t slide = 0;
+  for (std::size_t k = 0; k < mechanism.motorCount(); ++k) slide += mechanism.motor(k).slides() ? 1 : 0;
+  result.effort = slide == 0 ? "torque" : slide == mechanism.motorCount() ? "force" : "effort";
+  result.kind = "mechanism";
+  addProvenance(scenario, subject, result);
+  result.provenance.emplace_back("model file", scenario.model.filename().string());
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/mechanism_scenario.h"
 #include "model/scenario.h"
 #include "validation/replay/ladder.h"
 #include "validation/replay/windowed_replay.h"
@@ -36,6 +37,7 @@ std::vector<std::pair<std::string, std::string>> partProvenance();
 
 /// A result without checks. Its provenance has scenario, subject, build, settings and what the user asked for.
 ValidationResult emptyResult(const Scenario& scenario, const JudgedSubject& subject);
+ValidationResult emptyResult(const MechanismScenario& scenario, const JudgedSubject& subject);
 
 /// Commanded and simulated motion, joint motion, efforts and errors at the instants of `samples`, with the columns of
 /// docs/csv.md. It has only joints that the legs have, and one effort per motor.

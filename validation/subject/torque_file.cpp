@@ -11,33 +11,12 @@
 #include "base/csv.h"
 #include "base/text.h"
 #include "model/torque_names.h"
+#include "validation/subject/printed_precision.h"
 
 namespace ursula {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr int no_digit = std::numeric_limits<int>::max();
-
-/// The power of ten of the first significant digit.
-int firstPlace(double value) { return static_cast<int>(std::floor(std::log10(std::abs(value)))); }
-
-/// The precision of a printed file: its most decimals and its most significant digits.
-struct Fineness {
-  int last_place = no_digit;  ///< last place with the most decimals
-  int digits = 0;
-
-  void add(double value, int place) {
-    last_place = std::min(last_place, place);
-    if (value != 0) digits = std::max(digits, firstPlace(value) - place + 1);
-  }
-
-  /// Half a unit of the last digit, as defined in TorqueFile.
-  double precision(double value, int place) const {
-    const int by_digits = value == 0 ? last_place : firstPlace(value) - digits + 1;
-    const double half = 0.5 * std::pow(10.0, std::min(place, std::max(last_place, by_digits)));
-    return half > eps * std::abs(value) ? half : 0;  // finer than a double: exact
-  }
-};
 
 /// Closer times, s, would make the rates of torques overflow.
 constexpr double shortest = 1e-70;
@@ -69,14 +48,14 @@ Grid gridOf(const std::vector<double>& t, double half) {
   return largest <= 2 * half + rounding ? Grid::rounded : Grid::none;  // the grid's ends are also rounded: two halves
 }
 
-void setTimePrecision(const std::vector<int>& places, const Fineness& whole, TorqueFile& out) {
+void setTimePrecision(const std::vector<int>& places, const PrintedPrecision& whole, TorqueFile& out) {
   const double half = 0.5 * std::pow(10.0, *std::min_element(places.begin(), places.end()));
   const Grid grid = gridOf(out.t, half);
   for (std::size_t k = 0; k < out.t.size(); ++k) {
     const double at_own_digit = half > eps * std::abs(out.t[k]) ? half : 0;
     out.time_precision.push_back(grid == Grid::exact     ? 0
                                  : grid == Grid::rounded ? at_own_digit
-                                                         : whole.precision(out.t[k], places[k]));
+                                                         : whole.of(out.t[k], places[k]));
   }
 }
 
@@ -88,7 +67,7 @@ TorqueFile torquesOf(const CsvTable& table) {
   out.ignored = table.ignored;
   out.t = table.columns.front();
   requireIncreasing(table, out.t);
-  Fineness torques;
+  PrintedPrecision torques;
   out.torques.resize(table.rows());
   out.torque_precision.resize(table.rows());
   out.all_single = true;
@@ -102,9 +81,9 @@ TorqueFile torquesOf(const CsvTable& table) {
   for (std::size_t k = 0; k < table.rows(); ++k)
     for (std::size_t i = 0; i < motor_count; ++i)
       out.torque_precision[k](static_cast<Eigen::Index>(i)) =
-          torques.precision(table.columns[1 + i][k], table.last_places[1 + i][k]);
-  out.digits = torques.digits;
-  Fineness whole = torques;
+          torques.of(table.columns[1 + i][k], table.last_places[1 + i][k]);
+  out.digits = torques.digits();
+  PrintedPrecision whole = torques;
   const std::vector<int>& places = table.last_places.front();
   for (std::size_t k = 0; k < table.rows(); ++k) whole.add(out.t[k], places[k]);
   setTimePrecision(places, whole, out);

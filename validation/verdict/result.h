@@ -300,6 +300,7 @@ bool onlyOddEngineFails(const ValidationResult& result);
 /// The result of one scenario's validation. Provenance keeps its order: (key, value as text).
 struct ValidationResult {
   std::string scenario;
+  std::string kind = "manipulator";  ///< of the machine: or "mechanism"
   JudgedSubject subject;
   LimitBy limits = LimitBy::derived;  ///< user if a user's limit, wider than the derived one, decided a check
   Verdict verdict = Verdict::fail;

@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/csv.h"
+#include "base/text.h"
+#include "validation/mechanism/validate_mechanism.h"
+#include "validation/subject/printed_precision.h"
+
+namespace ursula {
+namespace {
+
+/// The column of motor k, by its number or its joint's name.
+std::string columnOf(const CsvTable& table, const Mechanism& mechanism, std::size_t k) {
+  const std::string by_number = motorColumn(mechanism, k, "tau"), joint = mechanism.motor(k).name;
+  const std::string unit = mechanism.effortUnit(k);
+  for (const std::string& name : {by_number, fmt::format("tau_{}_{}", joint, unit), fmt::format("{}_{}", joint, unit)})
+    if (table.find(name) != nullptr) return name;
+  return by_number;
+}
+
+void requireInstants(const CsvTable& table, std::vector<double>& t, double duration) {
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    if (i > 0 && !(t[i] > t[i - 1]))
+      throw CsvError(fmt::format("{}: error: t_s = {} does not come after {}, expected increasing instants",
+                                 table.place(i), t[i], t[i - 1]));
+    if (!(t[i] >= -1e-9 * duration && t[i] <= duration * (1 + 1e-9)))
+      throw CsvError(fmt::format("{}: error: t_s = {} lies outside of the motion, expected 0 to {} s", table.place(i),
+                                 t[i], duration));
+    t[i] = std::clamp(t[i], 0.0, duration);
+  }
+}
+
+}  // namespace
+
+GivenEfforts readMotorEfforts(const std::filesystem::path& file, const Mechanism& mechanism, double duration,
+                              const std::vector<std::pair<std::string, std::string>>& map) {
+  const CsvTable table = readCsv(file);
+  const auto mapped = [&](const std::string& name) {
+    const auto found = std::find_if(map.begin(), map.end(), [&](const auto& each) { return each.first == name; });
+    return found == map.end() ? std::string() : found->second;
+  };
+  GivenEfforts out;
+  out.name = file.filename().string();
+  out.is_read = true;
+  const std::string time = mapped("t_s").empty() ? "t_s" : mapped("t_s");
+  out.t = table.at(time);
+  std::vector<std::string> used = {time};
+  const auto n = static_cast<Eigen::Index>(mechanism.motorCount());
+  out.efforts.assign(table.rows(), Eigen::VectorXd::Zero(n));
+  out.precision = out.efforts;
+  PrintedPrecision printed;
+  std::vector<const std::vector<int>*> places;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const auto motor = static_cast<std::size_t>(k);
+    const std::string own = mapped(motorColumn(mechanism, motor, "tau"));
+    const std::string name = own.empty() ? columnOf(table, mechanism, motor) : own;
+    const std::vector<double>& values = table.at(name);
+    used.push_back(name);
+    const auto column =
+        static_cast<std::size_t>(std::find(table.names.begin(), table.names.end(), name) - table.names.begin());
+    places.push_back(&table.last_places[column]);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      out.efforts[i](k) = values[i];
+      printed.add(values[i], (*places.back())[i]);
+    }
+  }
+  for (Eigen::Index k = 0; k < n; ++k)
+    for (std::size_t i = 0; i < out.t.size(); ++i)
+      out.precision[i](k) = printed.of(out.efforts[i](k), (*places[static_cast<std::size_t>(k)])[i]);
+  for (const std::string& name : table.names)
+    if (std::find(used.begin(), used.end(), name) == used.end()) out.ignored.push_back(name);
+  requireInstants(table, out.t, duration);
+  return out;
+}
+
+}  // namespace ursula

@@ -1,0 +1,204 @@
+#include "validation/mechanism/mechanism_evidence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/instants.h"
+#include "simbody/simbody_mechanism.h"
+
+namespace ursula {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// Half the angle's sine of a relative rotation, times two: the angle for small ones.
+double turnBetween(const Matrix3d& a, const Matrix3d& b) { return (a - b).norm() / std::sqrt(2.0); }
+
+double twistSize(const Vector6d& twist, double length) {
+  return twist.tail<3>().norm() + length * twist.head<3>().norm();
+}
+
+/// ‖D T‖ over ‖T‖: what joints hold fixed does not move, for unit rates of each motor.
+double acrossOf(const Mechanism& mechanism, const LoopWork& work) {
+  double off = 0, size = 0;
+  const double length = mechanism.length();
+  const auto columnsAt = [&](std::size_t b, const Vector3d& reference) {
+    const BodyState& state = work.bodies[b];
+    const Vector3d r = state.displacement * reference - state.center;
+    Eigen::MatrixXd out = work.T[b];
+    for (Eigen::Index k = 0; k < out.cols(); ++k) out.block<3, 1>(3, k) += Vector3d(out.block<3, 1>(0, k)).cross(r);
+    return out;
+  };
+  for (const MechanismJoint& joint : mechanism.joints()) {
+    const Matrix3d R = work.bodies[joint.parent].displacement.linear();
+    const Eigen::MatrixXd on_child = columnsAt(joint.child, joint.centre_of_child);
+    const Vector3d at_child = work.bodies[joint.child].displacement * joint.centre_of_child;
+    const Vector3d back = work.bodies[joint.parent].displacement.inverse() * at_child;
+    const Eigen::MatrixXd relative = on_child - columnsAt(joint.parent, back);
+    const Vector3d a = R * joint.axis[0];
+    Eigen::MatrixXd turn = relative.topRows<3>() * length, slide = relative.bottomRows<3>();
+    if (joint.kind == JointKind::free) continue;
+    if (joint.kind == JointKind::revolute) turn -= a * (a.transpose() * turn);
+    if (joint.kind == JointKind::prismatic) slide -= a * (a.transpose() * slide);
+    if (joint.kind == JointKind::ball || joint.kind == JointKind::universal) turn.setZero();
+    off = larger(off, std::max(turn.norm(), slide.norm()));
+  }
+  for (const Eigen::MatrixXd& T : work.T)
+    size = larger(size, T.bottomRows<3>().norm() + length * T.topRows<3>().norm());
+  return size > 0 ? off / size : 0;
+}
+
+int rankOfShaping(const LoopWork& work, double length) {
+  Eigen::Index rows = 0;
+  for (const Eigen::MatrixXd& T : work.T) rows += T.rows();
+  Eigen::MatrixXd all(rows, work.N.cols());
+  rows = 0;
+  for (const Eigen::MatrixXd& T : work.T) {
+    all.middleRows(rows, 6) = T;
+    all.middleRows(rows, 3) *= length;
+    rows += 6;
+  }
+  // Columns of unit norm: a motor with short links counts as much as one with long ones.
+  for (Eigen::Index k = 0; k < all.cols(); ++k)
+    if (const double norm = all.col(k).norm(); norm > 0) all.col(k) /= norm;
+  return loops::rankByGap(all).rank;
+}
+
+void compareBodies(const SimbodyMechanism& engine, const LoopWork& work, double length, MechanismSample& sample) {
+  const auto theirs = engine.bodies();
+  for (std::size_t b = 0; b < theirs.size(); ++b) {
+    const BodyState& ours = work.bodies[b];
+    const Vector3d moved = ours.displacement.inverse() * ours.center;
+    const double place = (theirs[b].displacement * moved - ours.center).norm() +
+                         length * turnBetween(theirs[b].displacement.linear(), ours.displacement.linear());
+    sample.position = larger(sample.position, place);
+    sample.twist = larger(sample.twist, twistSize(theirs[b].twist - ours.twist, length));
+    sample.twist_rate = larger(sample.twist_rate, twistSize(theirs[b].twist_rate - ours.twist_rate, length));
+    sample.twist_size = larger(sample.twist_size, twistSize(ours.twist, length));
+    sample.twist_rate_size = larger(sample.twist_rate_size, twistSize(ours.twist_rate, length));
+  }
+}
+
+std::vector<double> judgedInstants(const MechanismScenario& scenario, const MechanismSubject& subject) {
+  if (!subject.given) return equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples);
+  return subject.given->t;
+}
+
+/// The multiples of the golden ratio match no period.
+std::vector<double> goldenInstants(double duration, int count) {
+  std::vector<double> out;
+  const double ratio = (std::sqrt(5.0) - 1) / 2;
+  for (int k = 1; k <= count; ++k) {
+    const double turns = k * ratio;
+    out.push_back(duration * (turns - std::floor(turns)));
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// Asks the subject for many instants at once.
+std::vector<MotorEfforts> answersOf(const MechanismSubject& subject, const LoopMotion& motion,
+                                    const std::vector<double>& instants, const Deadline& deadline) {
+  std::vector<MechanismQuestion> questions;
+  LoopWork work;
+  for (const double t : instants) {
+    deadline.require();
+    questions.push_back({motion.trajectory().at(t), {}});
+    loops::LoopPose pose = motion.near(t);
+    motion.solver().moveTo(questions.back().motion.q, pose);
+    motion.solver().kinematics(questions.back().motion, pose, work);
+    questions.back().joints = motion.solver().joints(work);
+  }
+  return subject.answers(questions);
+}
+
+void setUnits(const Mechanism& mechanism, MechanismEvidence& out) {
+  const auto n = static_cast<Eigen::Index>(mechanism.motorCount());
+  Eigen::Index slide = 0;
+  for (Eigen::Index k = 0; k < n; ++k) slide += mechanism.motor(static_cast<std::size_t>(k)).slides() ? 1 : 0;
+  out.efforts_in = MotorEfforts::Ones(n);
+  out.unit = slide == n ? "N" : "N m";
+  if (slide == n || slide == 0) return;
+  for (Eigen::Index k = 0; k < n; ++k)
+    if (mechanism.motor(static_cast<std::size_t>(k)).slides()) out.efforts_in(k) = mechanism.length();
+}
+
+}  // namespace
+
+double MechanismEvidence::limit(const MechanismSample& sample, Eigen::Index k) const {
+  return level * eps * sample.condition * sample.condition * sample.scale(k) * efforts_in(k);
+}
+
+MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopMotion& motion,
+                                  const MechanismSubject& subject, const std::vector<MakeMechanismEngine>& makers,
+                                  const Deadline& deadline, const std::function<void(double share)>& progress) {
+  const Mechanism& mechanism = *scenario.mechanism;
+  MechanismEvidence out;
+  out.scenario = &scenario;
+  out.motion = &motion;
+  setUnits(mechanism, out);
+  // Independent roundings grow as 4 root n: Higham and Mary 2019, as in Conditioning; n counts the steps of two trees.
+  out.level = 4 * std::sqrt(12.0 * static_cast<double>(mechanism.bodies().size() + mechanism.joints().size()));
+  const LoopSolver& solver = motion.solver();
+  const std::vector<double> instants = judgedInstants(scenario, subject);
+  std::vector<MotorEfforts> answers;
+  if (subject.answers) answers = answersOf(subject, motion, instants, deadline);
+  SimbodyMechanism simbody(mechanism);
+  for (const MakeMechanismEngine& make : makers)
+    if (auto engine = make(scenario)) out.engines.push_back(std::move(*engine));
+  LoopWork work;
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    deadline.require();
+    if (progress) progress(static_cast<double>(i) / static_cast<double>(instants.size()));
+    MechanismSample sample;
+    sample.motion = motion.trajectory().at(instants[i]);
+    sample.noc = motion.inverseDynamics(instants[i], work);
+    sample.subject = subject.given ? subject.given->efforts[i] : subject.answers ? answers[i] : sample.noc;
+    sample.given = subject.given ? subject.given->precision[i] : MotorEfforts::Zero(sample.noc.size());
+    sample.scale = solver.effortScale(work);
+    sample.condition = 1 / work.reciprocal_condition;
+    sample.output = work.bodies[mechanism.output()].displacement * mechanism.bodies()[mechanism.output()].frame;
+    simbody.place(sample.motion);
+    compareBodies(simbody, work, mechanism.length(), sample);
+    for (const MechanismEngine& engine : out.engines) sample.engines.push_back(engine.efforts(sample.motion));
+    sample.acceleration = simbody.accelerations(sample.subject);
+    sample.inverse_inertia = solver.inertia(work).inverse();
+    sample.across = acrossOf(mechanism, work);
+    sample.rank = rankOfShaping(work, mechanism.length());
+    if (subject.isNoc()) sample.direct = solver.directDynamics(sample.motion, sample.noc, work.pose, work);
+    out.largest = std::max(out.largest, sample.noc.cwiseProduct(out.efforts_in).cwiseAbs().maxCoeff());
+    out.samples.push_back(std::move(sample));
+  }
+  const double duration = motion.trajectory().duration();
+  for (std::size_t i = 1; i < instants.size(); ++i)
+    out.widest_gap = std::max(out.widest_gap, instants[i] - instants[i - 1]);
+  out.covers = !instants.empty() && instants.front() <= 1e-9 * duration && instants.back() >= duration * (1 - 1e-9);
+  if (!subject.given) {
+    constexpr int count = 1500;
+    const std::vector<double> dense = goldenInstants(duration, count);
+    if (subject.answers) answers = answersOf(subject, motion, dense, deadline);
+    SimbodyMechanism other(mechanism);
+    for (std::size_t i = 0; i < dense.size(); ++i) {
+      deadline.require();
+      MechanismSample sample;
+      sample.motion = motion.trajectory().at(dense[i]);
+      sample.noc = motion.inverseDynamics(dense[i], work);
+      if (subject.answers) {
+        sample.subject = answers[i];
+      } else {
+        other.place(sample.motion);
+        sample.subject = other.inverseDynamics();
+      }
+      sample.scale = solver.effortScale(work);
+      sample.condition = 1 / work.reciprocal_condition;
+      out.between.push_back(std::move(sample));
+    }
+  }
+  if (subject.isNoc()) out.invariances = askInvariances(scenario, motion);
+  return out;
+}
+
+}  // namespace ursula

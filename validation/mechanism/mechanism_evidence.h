@@ -1,0 +1,140 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/deadline.h"
+#include "model/mechanism_scenario.h"
+#include "nocsolver/loops/loop_solver.h"
+#include "validation/verdict/result.h"
+
+namespace ursula {
+
+/// MotorEfforts of all motors, one entry each.
+using MotorEfforts = Eigen::VectorXd;
+
+/// What a solver is asked about one instant: the motors' motion, and all other joints'.
+struct MechanismQuestion {
+  MotorMotion motion;
+  std::vector<LoopSolver::JointValue> joints;
+};
+
+/// MotorEfforts at instants of their own, from a file or a program.
+struct GivenEfforts {
+  std::string name;
+  bool is_read = false;
+  std::vector<double> t;
+  std::vector<MotorEfforts> efforts;
+  std::vector<MotorEfforts> precision;  ///< half a unit of the last digit printed; zero if exact
+  std::string read_as;
+  std::vector<std::string> ignored;
+};
+
+/// Whose efforts are judged. Without `answers` and `given` it is this program's NOC.
+struct MechanismSubject {
+  JudgedSubject about = {"noc", Formulation::noc};
+  std::function<std::vector<MotorEfforts>(const std::vector<MechanismQuestion>&)> answers;
+  std::shared_ptr<const GivenEfforts> given;
+
+  bool isNoc() const { return !answers && !given; }
+};
+
+/// An engine that computes the same efforts from raw parameters alone. It is asked along the motion, in order of time.
+struct MechanismEngine {
+  std::string check;   ///< row of the catalogue: "torque.pointwise"
+  std::string voice;   ///< "Simbody, other joints cut"
+  std::string engine;  ///< as in CheckRow::engine
+  std::function<MotorEfforts(const MotorMotion&)> efforts;
+};
+/// Makes an engine for a mechanism; null if this build or machine has none.
+using MakeMechanismEngine = std::function<std::unique_ptr<MechanismEngine>(const MechanismScenario&)>;
+
+/// What was computed at one judged instant. Nothing here judges.
+struct MechanismSample {
+  MotorMotion motion;
+  MotorEfforts subject, noc;
+  MotorEfforts scale;                 ///< size of the terms that cancel in (37), of each motor
+  MotorEfforts given;                 ///< possible error by missing digits
+  double condition = 1;               ///< of the passive rates
+  std::vector<MotorEfforts> engines;  ///< in the order of MechanismEvidence::engines
+  MotorEfforts acceleration;          ///< of the motors by Simbody under the subject's efforts
+  MotorEfforts direct;                ///< by the NOC, (36), under its own efforts
+  Eigen::MatrixXd inverse_inertia;
+  double position = 0, twist = 0, twist_rate = 0;  ///< largest difference of a body from Simbody's, lengths
+  double twist_size = 0, twist_rate_size = 0;
+  double across = 0;                                         ///< ‖D T‖ / ‖T‖, lengths
+  int rank = 0;                                              ///< of T
+  Eigen::Isometry3d output = Eigen::Isometry3d::Identity();  ///< the output body's frame
+};
+
+/// The same efforts by the NOC of a changed machine, at one instant.
+struct InvarianceSample {
+  double t = 0;
+  double condition = 1;
+  MotorEfforts difference, scale;
+};
+struct MechanismInvariance {
+  std::string check;
+  std::vector<InvarianceSample> samples;
+};
+
+/// Simbody's motion in one window under the subject's efforts.
+struct MechanismWindow {
+  double start = 0, end = 0;
+  double position = 0, orientation = 0;              ///< error of the output body at the end, m and rad
+  double position_limit = 0, orientation_limit = 0;  ///< what longer steps and the efforts' rounding change of it
+  double closure_position = 0, closure_velocity = 0;
+  double closure_position_limit = 0, closure_velocity_limit = 0;
+  double order_gain = 0;  ///< how much finer steps moved the end, m
+};
+
+struct MechanismEvidence {
+  const MechanismScenario* scenario = nullptr;
+  const LoopMotion* motion = nullptr;
+  std::vector<MechanismEngine> engines;
+  std::vector<MechanismSample> samples;
+  std::vector<MechanismSample> between;  ///< with subject, noc, scale and condition alone
+  std::vector<MechanismInvariance> invariances;
+  std::vector<MechanismWindow> windows;
+  MotorEfforts efforts_in;  ///< what turns each motor's effort into the shown unit: 1, or the length if motors differ
+  double level = 25;        ///< units of rounding that add up from the base to an effort
+  double largest = 0;       ///< effort along the motion, in the shown unit
+  std::string unit;         ///< "N m", or "N" if all motors slide
+  std::string not_replayed, out_of_time;
+  bool covers = true;  ///< the given instants cover the motion
+  double widest_gap = 0;
+
+  /// The bound of rounding in an effort of motor k.
+  double limit(const MechanismSample& sample, Eigen::Index k) const;
+};
+
+/// Runs all experiments.
+MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopMotion& motion,
+                                  const MechanismSubject& subject, const std::vector<MakeMechanismEngine>& makers,
+                                  const Deadline& deadline, const std::function<void(double share)>& progress);
+
+/// Runs the replays; `efforts` are those of the subject at any instant.
+void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const Deadline& deadline,
+                     MechanismEvidence& evidence);
+
+/// MotorEfforts of changed machines: `invariance.*`.
+std::vector<MechanismInvariance> askInvariances(const MechanismScenario& scenario, const LoopMotion& motion);
+
+/// The checks of the catalogue that the evidence holds.
+std::vector<Check> judgeMechanism(const MechanismEvidence& evidence, const MechanismSubject& subject);
+
+/// Returns the machine turned, moved, in other units, relabelled or heavier; also what turns its efforts back.
+struct ChangedMechanism {
+  std::string check;
+  MechanismParameters machine;
+  MotorEfforts back;         ///< factor of each effort
+  MotorEfforts coordinates;  ///< factor of each motor's coordinate
+  double time = 1;           ///< factor of time
+  bool reversed = false;
+  std::vector<std::size_t> motor_of;  ///< the new place of each motor
+};
+std::vector<ChangedMechanism> changedMechanisms(const Mechanism& mechanism);
+
+}  // namespace ursula

@@ -1,0 +1,138 @@
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "simbody/simbody_mechanism.h"
+#include "validation/mechanism/mechanism_evidence.h"
+
+namespace ursula {
+namespace {
+
+using State = std::vector<double>;
+constexpr int window_count = 12;
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// Where the output body is at a window's end.
+struct End {
+  Eigen::Isometry3d output = Eigen::Isometry3d::Identity();
+  SimbodyMechanism::Closure closure;
+};
+
+/// Runs windows of Simbody's motion under efforts.
+class Replayer {
+ public:
+  Replayer(const MechanismScenario& scenario, std::function<MotorEfforts(double)> efforts, const Deadline& deadline)
+      : simbody_(*scenario.mechanism),
+        output_(scenario.mechanism->output()),
+        efforts_(std::move(efforts)),
+        deadline_(deadline) {}
+
+  /// Integrates from the commanded state at `start` in equal steps of Fehlberg's order 8, with `more` added to efforts.
+  End run(const MotorMotion& start, double end, int steps, const MotorEfforts& more) {
+    simbody_.place(start);
+    State y = simbody_.state();
+    boost::numeric::odeint::runge_kutta_fehlberg78<State> stepper;
+    const double h = (end - start.t) / steps;
+    const auto system = [&](const State& at, State& rate, double t) {
+      simbody_.derivative(t, at.data(), efforts_(t) + more, rate.data());
+    };
+    for (int k = 0; k < steps; ++k) {
+      deadline_.require();
+      stepper.do_step(system, y, start.t + k * h, h);
+    }
+    simbody_.setState(end, y.data());
+    return {simbody_.bodies()[output_].displacement, simbody_.closure()};
+  }
+
+ private:
+  SimbodyMechanism simbody_;
+  std::size_t output_;
+  std::function<MotorEfforts(double)> efforts_;
+  Deadline deadline_;
+};
+
+double turnBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  return (a.linear() - b.linear()).norm() / std::sqrt(2.0);
+}
+
+/// The sample nearest to an instant, for its limits.
+const MechanismSample& sampleAt(const MechanismEvidence& evidence, double t) {
+  const MechanismSample* best = &evidence.samples.front();
+  for (const MechanismSample& each : evidence.samples)
+    if (std::abs(each.motion.t - t) < std::abs(best->motion.t - t)) best = &each;
+  return *best;
+}
+
+/// The least time constant of friction and damping along the motion, s: an explicit step must not be much longer.
+double shortestTime(const MechanismEvidence& evidence) {
+  const Mechanism& mechanism = *evidence.scenario->mechanism;
+  double out = std::numeric_limits<double>::infinity();
+  double rub = 0;
+  for (const MechanismJoint& joint : mechanism.joints()) {
+    const double own = joint.damping + joint.friction / joint.smoothing();
+    rub = std::max(rub, joint.slides() ? own * mechanism.length() * mechanism.length() : own);
+  }
+  for (const MechanismSample& sample : evidence.samples) {
+    const double mobility = sample.inverse_inertia.cwiseAbs().maxCoeff();
+    if (rub * mobility > 0) out = std::min(out, 1 / (rub * mobility));
+  }
+  return out;
+}
+
+}  // namespace
+
+void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const Deadline& deadline,
+                     MechanismEvidence& evidence) {
+  constexpr double allowance = 10;
+  const MechanismScenario& scenario = *evidence.scenario;
+  const Mechanism& mechanism = *scenario.mechanism;
+  const double duration = scenario.trajectory->duration(), length = mechanism.length();
+  const double step_bound = shortestTime(evidence);
+  int steps = 8;
+  while (duration / window_count / steps > 0.5 * step_bound && steps < 4096) steps *= 2;
+  if (steps > 256) {
+    evidence.not_replayed =
+        "friction changes within a time that no explicit step follows; accelerations are compared instead";
+    return;
+  }
+  Replayer replayer(scenario, efforts, deadline);
+  const Vector3d center = mechanism.bodies()[mechanism.output()].center_of_mass;
+  LoopWork work;
+  for (int w = 0; w < window_count; ++w) {
+    MechanismWindow window;
+    window.start = duration * w / window_count;
+    window.end = duration * (w + 1) / window_count;
+    const MotorMotion start = evidence.motion->trajectory().at(window.start);
+    const MechanismSample& sample = sampleAt(evidence, window.end);
+    MotorEfforts noise(mechanism.motorCount());
+    for (Eigen::Index k = 0; k < noise.size(); ++k)
+      noise(k) = ((k % 2 == 0) ? 1 : -1) * evidence.limit(sample, k) / evidence.efforts_in(k);
+    const MotorEfforts none = MotorEfforts::Zero(noise.size());
+    const End coarse = replayer.run(start, window.end, steps, none),
+              fine = replayer.run(start, window.end, 2 * steps, none);
+    const End noisy = replayer.run(start, window.end, 2 * steps, noise);
+    static_cast<void>(evidence.motion->inverseDynamics(window.end, work));
+    const Eigen::Isometry3d wanted = work.bodies[mechanism.output()].displacement;
+    const auto apart = [&](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+      return (a * center - b * center).norm();
+    };
+    window.position = apart(fine.output, wanted);
+    window.orientation = turnBetween(fine.output, wanted);
+    window.order_gain = apart(fine.output, coarse.output);
+    const double floor = evidence.level * eps * sample.condition * sample.condition;
+    window.position_limit = allowance * (window.order_gain + apart(noisy.output, fine.output) + floor * length);
+    window.orientation_limit =
+        allowance * (turnBetween(fine.output, coarse.output) + turnBetween(noisy.output, fine.output) + floor);
+    window.closure_position = fine.closure.position;
+    window.closure_velocity = fine.closure.velocity;
+    const double own_steps = (std::abs(fine.closure.position - coarse.closure.position));
+    window.closure_position_limit = allowance * (own_steps + floor * length) + window.position_limit;
+    window.closure_velocity_limit =
+        window.closure_position_limit * steps / (window.end - window.start) +
+        allowance * (std::abs(fine.closure.velocity - coarse.closure.velocity) + floor * sample.twist_size);
+    evidence.windows.push_back(window);
+  }
+}
+
+}  // namespace ursula

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "validation/mechanism/mechanism_evidence.h"
+#include "validation/verdict/result.h"
+
+namespace ursula {
+
+struct MechanismOptions {
+  double time_limit = 0;  ///< s; 0: none
+  std::function<bool()> asked_to_end = nullptr;
+  std::function<void(double share, const char* now)> progress = nullptr;
+};
+
+/// Validates a mechanism of any kind: as validate() does a manipulator, by the same catalogue of checks. Throws
+/// LoopError where the loops cannot follow the motion, ScenarioError for a wrong number of motors.
+ValidationResult validateMechanism(const MechanismScenario& scenario, const MechanismSubject& subject = {},
+                                   const MechanismOptions& options = {});
+
+/// The solver of a scenario along its motion, with as many motors as freedoms. Throws ScenarioError that names the
+/// joints that are left free, or the motors that fight each other. Keeps the scenario.
+class MechanismAlong {
+ public:
+  explicit MechanismAlong(const MechanismScenario& scenario);
+  const LoopMotion& motion() const { return *motion_; }
+  const LoopSolver& solver() const { return *solver_; }
+  const LoopFreedoms& freedoms() const { return freedoms_; }
+
+ private:
+  std::unique_ptr<LoopSolver> solver_;
+  LoopFreedoms freedoms_;
+  std::unique_ptr<LoopMotion> motion_;
+};
+
+/// Reads `t_s` and one column of efforts for each motor, by number (`tau_1_Nm`, `tau_2_N`), by the joint's name, or as
+/// `map` says ("tau_1_Nm" and the column's own name). Throws CsvError,
+/// also for instants that do not increase or lie outside of the motion.
+GivenEfforts readMotorEfforts(const std::filesystem::path& file, const Mechanism& mechanism, double duration,
+                              const std::vector<std::pair<std::string, std::string>>& map = {});
+
+/// Engines of the parts in this build, beside Simbody.
+std::vector<MakeMechanismEngine> partMechanismEngines();
+
+/// Names likely causes of wrong efforts; a part does it.
+using AddMechanismCause = void(const MechanismScenario& scenario, const MechanismEvidence& evidence,
+                               ValidationResult& result);
+AddMechanismCause* partMechanismCause();
+
+}  // namespace ursula
