@@ -5,7 +5,8 @@
 #
 # FIRST: the first hour needs it, so `./dev validate` builds it. SEES: other parts that it may include. VERBS: their
 # functions are addName, in the *_verb.cpp of its folder. ADDS: what it adds to a verdict, as functions of the same name:
-# engines (addEngines), fast families (addFastFamilies), likely causes (addLikelyCause), provenance (addNAMEProvenance).
+# engines (addEngines), fast families (addFastFamilies), likely causes (addLikelyCause), provenance (addNAMEProvenance);
+# or to what can be read: models of mechanisms (addMechanismReader).
 set(URSULA_PARTS all CACHE STRING "Which parts are built: first (what the first hour needs) or all")
 set_property(CACHE URSULA_PARTS PROPERTY STRINGS first all)
 
@@ -35,11 +36,15 @@ function(ursula_part_rows file)
   set(FAMILIES "")
   set(PROVENANCE "")
   set(CAUSE "nullptr")
+  set(READER "nullptr")
   set(DECLARED "")
   foreach(what IN LISTS ARGN)
     if(what STREQUAL "addLikelyCause")
       set(CAUSE "addLikelyCause")
       string(APPEND DECLARED "AddLikelyCause addLikelyCause;\n")
+    elseif(what STREQUAL "addMechanismReader")
+      set(READER "addMechanismReader()")
+      string(APPEND DECLARED "ModelReader addMechanismReader();\n")
     elseif(what MATCHES "Provenance$")
       string(APPEND DECLARED "void ${what}(std::vector<std::pair<std::string, std::string>>& rows);\n")
       string(APPEND PROVENANCE "  ${what}(rows);\n")

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,11 @@ struct ModelRead {
   MechanismParameters machine;
   std::vector<std::string> assumptions, warnings;
 };
-/// Reads a model file in SDF, MJCF or URDF. A part provides it. Throws InputError with the file's place.
+/// Reads a model file in SDF, MJCF or URDF. A part provides it. Throws InputError with the file's place, and
+/// InvalidParameter (places `mechanism.…`) for choices that the file does not have.
 using ModelReader = ModelRead (*)(const std::filesystem::path& file, const MechanismChoices& choices);
+/// Null if no part of this build reads models. CMake writes the definition (cmake/parts.cmake), once for each program.
+ModelReader partModelReader();
 
 /// A mechanism of any kind, the commanded motion of its motors, and how both are judged.
 struct MechanismScenario {

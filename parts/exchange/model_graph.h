@@ -26,11 +26,27 @@ std::string inWords(const Assumption& assumption);
 
 enum class ModelFormat { sdf, mjcf, urdf };
 
-/// The content of a model file in any format: bodies, primitive joints, closures, motors and gravity. `motors` are those
-/// of the file, or the user's choice.
+/// Forces in the file that no machine has words for: they are refused, unless the user leaves them out.
+struct OtherForce {
+  std::string kind;     ///< the user's word for it, "fluid"
+  std::string refusal;  ///< the text of the refusal
+  int line = 0;
+  Assumption left_out;  ///< said if it is left out
+};
+
+/// A pose of MJCF's <keyframe>; `qpos` as the file has it.
+struct Keyframe {
+  std::string name, qpos;
+  int line = 0;
+};
+
+/// The content of a model file in any format: bodies, primitive joints, closures, motors and gravity. `motors` are
+/// those of the file, or the user's choice. What only some machines can have, as springs, is carried and refused later.
 struct ModelGraph : MechanismParameters {
   ModelFormat format = ModelFormat::sdf;
   Assumptions assumptions;
+  std::vector<OtherForce> other_forces;
+  std::vector<Keyframe> keyframes;
 };
 
 /// A model that cannot be imported: what is wrong, what was expected, what would help. The line of the file is 1-based,

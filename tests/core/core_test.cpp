@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "model/mechanism_scenario.h"
 #include "model/scenario.h"
 #include "validation/checks/families.h"
 #include "validation/likely_cause.h"
@@ -28,6 +29,7 @@ const Check& named(const ValidationResult& result, const std::string& name) {
 TEST(Core, hasNoRowOfAPart) {
   EXPECT_EQ(furtherEngines().size(), 1u) << "Simbody's own second tree";
   EXPECT_EQ(partLikelyCause(), nullptr);
+  EXPECT_EQ(partModelReader(), nullptr);
   EXPECT_TRUE(partFamilies().empty());
   EXPECT_FALSE(checkFamilies().empty());
 }

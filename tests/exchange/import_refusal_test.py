@@ -99,7 +99,7 @@ class Refusals(unittest.TestCase):
                 (r'body1="\w+"', 'body1="platfrom"', ["platfrom", "did you mean 'platform'"]),
                 (r'<motor joint="leg6_j2"/>', "", ["5 driven joints", "leg6_j2", "--actuated"]),
                 (r'<actuator>', '<actuator><muscle name="m" joint="leg1_j0"/>', ["muscle", "leg1_j0"]),
-                (r"<freejoint/>", '<joint name="f" type="free" armature="0.5"/>', ['name="f"', "free joint", "0.5"]),
+                (r"<freejoint/>", '<joint name="f" type="free" armature="0.5"/>', ["joint f", "free joint", "0.5"]),
                 (r"<worldbody>", '<worldbody><joint name="w"/>', ['name="w"', "of the world"]),
                 (r"<equality>", '<equality><weld name="g" body1="leg1_first" body2="leg1_second" relpose="0 0 0 0 1 0 0"/>', ["both of its sides", "leg1_"]),
                 (r"<equality>", '<equality><weld name="g" site1="a" body1="leg1_first" relpose="0 0 0 1 0 0 0"/>', ["sites and relpose"]),

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "parts/exchange/import.h"
+#include "parts/exchange/mechanism_reader.h"
 
 namespace ursula::exchange {
 namespace {
@@ -84,6 +85,9 @@ TEST_P(ReadMujoco, agreesOnJoints) {
     EXPECT_EQ(joint.damping, model_->dof_damping[dof]);
     EXPECT_EQ(joint.friction, model_->dof_frictionloss[dof]);
     EXPECT_EQ(joint.rotor_inertia, model_->dof_armature[dof]);
+    EXPECT_EQ(joint.stiffness, model_->jnt_stiffness[id]);
+    const double at_rest = joint.kind == JointKind::ball ? 0 : model_->qpos_spring[model_->jnt_qposadr[id]];
+    EXPECT_NEAR(joint.spring_reference, at_rest, tolerance);
     bool driven = false;
     for (int a = 0; a < model_->nu; ++a) driven = driven || model_->actuator_trnid[2 * a] == id;
     EXPECT_EQ(joint.driven, driven);
@@ -178,7 +182,60 @@ constexpr const char* urdf =
   <link name="c"><inertial><mass value="0.1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
   <joint name="c1" type="prismatic"><parent link="b"/><child link="c"/><axis xyz="0 1 0"/><limit lower="-1" upper="2" effort="1" velocity="1"/></joint></robot>)";
 
-INSTANTIATE_TEST_SUITE_P(, ReadMujoco, testing::Values(orientations, shapes, classes, bounds, raised, urdf, closures));
+/// Springs in degrees and metres, from defaults and at a ball.
+constexpr const char* springs =
+    R"(<mujoco><default><joint stiffness="5" springref="20"/></default><worldbody>
+  <body name="a" euler="10 20 30"><joint name="a1" ref="25"/><joint name="a2" type="slide" springref="0.5" ref="0.25"/>
+    <geom size="0.1"/><body name="b"><joint name="b1" stiffness="0"/><geom size="0.1"/>
+      <body name="c"><joint name="c1" type="ball" stiffness="2"/><geom size="0.1"/></body></body></body></worldbody></mujoco>)";
+
+INSTANTIATE_TEST_SUITE_P(, ReadMujoco,
+                         testing::Values(orientations, shapes, classes, bounds, raised, urdf, closures, springs));
+
+/// Every kind of joint at a keyframe that a weld needs.
+TEST(ReadMujocoKeyframe, agreesOnBodies) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "read_mujoco_keyframe.xml";
+  std::ofstream(file) << R"(<mujoco><compiler angle="radian"/><worldbody>
+  <body name="f" pos="1 2 3" euler="0.1 0.2 0.3"><freejoint name="f1"/><inertial pos="0.1 0 0" mass="1" diaginertia="1 1.2 1.4"/></body>
+  <body name="a" pos="-1 0.5 2" euler="-0.3 0.5 0.7"><joint name="a1" axis="1 2 3" pos="0.1 0 0" ref="0.5"/><joint name="a2" type="slide" axis="0 1 1" ref="-1"/>
+    <joint name="a3" axis="0 1 1"/><inertial pos="0.1 0.2 0.3" mass="2" diaginertia="0.3 0.4 0.5" euler="5 6 7"/>
+    <body name="b" pos="0 0 1" euler="1 0 0"><joint name="b1" type="ball" pos="0 0.2 0"/><inertial pos="0 0 0.1" mass="1" diaginertia="1 1.2 1.4"/></body></body></worldbody>
+  <equality><weld body1="a" body2="f" relpose="0.1 0.2 0.3 1 0.1 0 0"/></equality>
+  <keyframe><key qpos="-0.9 0.6 2.5 0.7 0.1 0.2 0.3 0.9 -0.6 0.3 0.5 0.6 0.7 0.8"/></keyframe></mujoco>)";
+  const std::unique_ptr<mjModel, void (*)(mjModel*)> model(mj_loadXML(file.c_str(), nullptr, nullptr, 0),
+                                                           mj_deleteModel);
+  ASSERT_TRUE(model);
+  const std::unique_ptr<mjData, void (*)(mjData*)> data(mj_makeData(model.get()), mj_deleteData);
+  mj_resetDataKeyframe(model.get(), data.get(), 0);
+  mj_forward(model.get(), data.get());
+  const MechanismParameters machine = readMechanismModel(file, {}).machine;
+  for (const char* name : {"f", "a", "b"}) {
+    const int id = mj_name2id(model.get(), mjOBJ_BODY, name);
+    const auto body = std::find_if(machine.bodies.begin(), machine.bodies.end(),
+                                   [&](const MechanismBody& each) { return each.name == name; });
+    ASSERT_NE(body, machine.bodies.end());
+    SCOPED_TRACE(name);
+    EXPECT_LE((body->frame.translation() - Map3(data->xpos + 3 * id)).norm(), tolerance);
+    EXPECT_LE((body->frame.linear() - MapRows(data->xmat + 9 * id)).norm(), tolerance);
+    EXPECT_LE((body->center_of_mass - Map3(data->xipos + 3 * id)).norm(), tolerance);
+    const Matrix3d axes = MapRows(data->ximat + 9 * id);
+    const Matrix3d inertia = axes * Map3(model->body_inertia + 3 * id).asDiagonal() * axes.transpose();
+    EXPECT_LE((body->inertia - inertia).norm(), inertia_tolerance * inertia.norm());
+  }
+  for (const MechanismJoint& joint : machine.joints) {
+    SCOPED_TRACE(joint.name);
+    const int id = mj_name2id(model.get(), mjOBJ_JOINT, joint.name.c_str());
+    if (joint.closure) {
+      EXPECT_LE((joint.centre - joint.centre_of_child - Map3(data->efc_pos)).norm(), tolerance);
+    } else if (joint.kind == JointKind::revolute || joint.kind == JointKind::prismatic) {
+      EXPECT_EQ(joint.position, data->qpos[model->jnt_qposadr[id]]);
+      EXPECT_LE((joint.axis[0] - Map3(data->xaxis + 3 * id)).norm(), tolerance);
+      EXPECT_LE((joint.centre - Map3(data->xanchor + 3 * id)).cross(joint.axis[0]).norm(), tolerance);
+    } else {
+      EXPECT_LE((joint.centre - Map3(data->xanchor + 3 * id)).norm(), tolerance);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace ursula::exchange

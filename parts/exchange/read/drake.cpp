@@ -35,7 +35,7 @@ void readDrakeConstraints(const Element& model, ModelGraph& graph, const BodyByN
     const std::string name = e.Name();
     const bool couples = name.rfind("drake:", 0) == 0 && name.find("_constraint") != std::string::npos;
     if (name == "drake:linear_bushing_rpy" || (couples && name != "drake:ball_constraint"))
-      refuse(e, "which a scenario has no words for");
+      refuse(e, fmt::format("which a scenario has no words for; {}", without_it));
   });
 }
 

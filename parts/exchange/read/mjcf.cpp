@@ -59,25 +59,30 @@ class MjcfReader {
     readMjcfClosures(root_, defaults_, named_, graph_);
     readSmoothing();
     readMjcfActuators(root_, defaults_, named_, graph_);
-    if (const Element* keys = root_.FirstChildElement("keyframe");
-        keys != nullptr && keys->FirstChildElement() != nullptr)
-      graph_.assumptions.push_back(
-          {"Keyframes are left out: the initial pose is the one that the bodies are written in", "<keyframe>"});
+    refuseCompensation();
+    readKeyframes();
     return graph_;
   }
 
  private:
   void refuseParts() const {
-    if (const Element* include = root_.FirstChildElement("include"))
-      refuse(*include, fmt::format("includes {}, which is not read; make one file of it: mj_saveLastXML, or MuJoCo's "
-                                   "compile FILE.xml ONE.xml",
-                                   shown(attribute(*include, "file"))));
     for (const char* name : {"tendon", "deformable", "extension"})
-      if (const Element* part = root_.FirstChildElement(name); part != nullptr && part->FirstChildElement() != nullptr)
-        refuse(*part->FirstChildElement(), fmt::format("of <{}>, which a scenario has no words for", name));
+      eachChild(root_, name, [&](const Element& part) {
+        if (const Element* first = part.FirstChildElement())
+          refuse(*first, fmt::format("of <{}>, which a scenario has no words for; {}", name, without_it));
+      });
   }
 
-  Eigen::Isometry3d placeOf(const Element& element, const std::function<std::string(const char*)>& get) const {
+  void readKeyframes() {
+    eachChild(root_, "keyframe", [this](const Element& keys) {
+      eachChild(keys, "key", [this](const Element& key) {
+        graph_.keyframes.push_back({attribute(key, "name"), attribute(key, "qpos"), key.GetLineNum()});
+      });
+    });
+    if (!graph_.keyframes.empty()) graph_.assumptions.push_back({keyframes_left_out, "<keyframe>"});
+  }
+
+  Eigen::Isometry3d placeOf(const Element& element, const MjcfGet& get) const {
     const std::string pos = get("pos");
     return placed(pos.empty() ? Vector3d::Zero() : vectorOf(element, pos, "pos"),
                   mjcfOrientation(element, compiler_, get));
@@ -146,10 +151,7 @@ class MjcfReader {
       place.childclass = own;
     }
     listUnknownAttributes(element, known_of_body, graph_.assumptions);
-    const std::string name = nameOr(element, "body"), compensated = attribute(element, "gravcomp");
-    if (!compensated.empty() && numberOf(element, compensated, "gravcomp") != 0)
-      refuse(element,
-             fmt::format("gravcomp {}: gravity is taken off a body, which a scenario has no key for", compensated));
+    const std::string name = named_.nameOf(element, "body");
     if (attribute(element, "mocap") == "true") {
       for (const char* joint : {"joint", "freejoint"})
         if (element.FirstChildElement(joint) != nullptr) refuse(element, "mocap and a joint, expected one of them");
@@ -158,7 +160,22 @@ class MjcfReader {
     const std::size_t body = addFrames(element, name, parent, place);
     if (!named_.bodies.emplace(name, body).second)
       refuse(element, "a second body of that name, expected names of their own");
+    graph_.bodies[body].weightless = isCompensated(element);
     readChildren(element, body, place, graph_.bodies[parent].frame);
+  }
+
+  /// Gravity compensation that counts as a motor's effort would have to be taken from the effort.
+  void noteCompensated(const Element& element, const MjcfGet& get, const GraphJoint& joint) {
+    if (get("actuatorgravcomp") == "true") compensating_.emplace_back(&element, joint.name);
+  }
+
+  void refuseCompensation() const {
+    for (const GraphBody& body : graph_.bodies)
+      if (body.weightless && !compensating_.empty())
+        refuse(*compensating_[0].first,
+               fmt::format("actuatorgravcomp: what holds body {} (gravcomp) is a part of this motor's effort, which a "
+                           "scenario has no words for; expected a file without one of the two",
+                           shown(body.name)));
   }
 
   std::size_t addBody(const Element& element, const std::string& name, const Eigen::Isometry3d& frame) {
@@ -198,7 +215,7 @@ class MjcfReader {
     const auto get = [&](const char* name) {
       return free ? std::string() : defaults_.get(element, at.childclass, name);
     };
-    GraphJoint joint = jointAt(element, nameOr(element, "joint"));
+    GraphJoint joint = jointAt(element, named_.nameOf(element, "joint"));
     joint.parent = parent;
     joint.child = child;
     const std::string type = free ? "free" : get("type").empty() ? "hinge" : get("type");
@@ -213,45 +230,11 @@ class MjcfReader {
     joint.axis[0] = at.frame.linear() *
                     directionOf(element, axis.empty() ? Vector3d::UnitZ() : vectorOf(element, axis, "axis"), "axis");
     listUnknownAttributes(element, known_of_joint, graph_.assumptions);
-    takeJointNumbers(element, get, joint);
+    takeMjcfNumbers(element, compiler_, get, joint);
+    noteCompensated(element, get, joint);
     if (!attribute(element, "name").empty() && !named_.joints.emplace(joint.name, graph_.joints.size()).second)
       refuse(element, "a second joint of that name, expected names of their own");
     graph_.joints.push_back(joint);
-  }
-
-  void takeJointNumbers(const Element& element, const std::function<std::string(const char*)>& get, GraphJoint& joint) {
-    const auto number = [&](const char* name) {
-      const std::string text = get(name);
-      const double value = text.empty() ? 0 : numberOf(element, text, name);
-      if (value < 0) refuse(element, fmt::format("{} {}, expected none below zero", name, value));
-      return value;
-    };
-    if (const double stiffness = number("stiffness"); stiffness != 0)
-      refuse(element, fmt::format("a spring of stiffness {}, which a scenario has no words for", stiffness));
-    if (const std::string text = get("springdamper"); !text.empty())
-      for (const double value : numbersOf(element, text, 2, "springdamper"))
-        if (value != 0)
-          refuse(element, fmt::format("springdamper {}: a spring, which a scenario has no words for", text));
-    joint.damping = number("damping");
-    joint.friction = number("frictionloss");
-    joint.rotor_inertia = number("armature");
-    if (joint.kind == JointKind::free && (joint.damping != 0 || joint.friction != 0 || joint.rotor_inertia != 0))
-      refuse(
-          element,
-          fmt::format("a free joint with damping {}, frictionloss {} and armature {}, which a scenario has no key for",
-                      joint.damping, joint.friction, joint.rotor_inertia));
-    if (joint.kind == JointKind::ball || joint.kind == JointKind::free) return;
-    const bool turns = joint.kind == JointKind::revolute;
-    const auto inUnits = [&](double value) { return turns ? compiler_.angle(value) : value; };
-    if (const std::string ref = get("ref"); !ref.empty()) joint.position = inUnits(numberOf(element, ref, "ref"));
-    const std::string limited = get("limited"), range = get("range");
-    if (range.empty() || limited == "false" || (limited != "true" && !compiler_.auto_limits)) return;
-    const std::vector<double> ends = numbersOf(element, range, 2, "range", HUGE_VAL);
-    if (ends[0] == 0 && ends[1] == 0) return;  // MuJoCo's default
-    if (!(ends[0] < ends[1]))
-      refuse(element, fmt::format("range {}, expected its first number below the second", range));
-    joint.lower = inUnits(ends[0]);
-    joint.upper = inUnits(ends[1]);
   }
 
   /// Reads the smoothing speeds of friction that `ursula export` wrote: NAME_smoothing_speed in <custom>.
@@ -286,6 +269,7 @@ class MjcfReader {
   MjcfCompiler compiler_;
   MjcfDefaults defaults_;
   MjcfNamed named_;
+  std::vector<std::pair<const Element*, std::string>> compensating_;  ///< joints with actuatorgravcomp
   ModelGraph graph_;
 };
 

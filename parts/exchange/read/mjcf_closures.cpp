@@ -55,20 +55,19 @@ const std::set<std::string> known_of_connect =
 const std::set<std::string> known_of_weld =
     wordsOf("name class active body1 body2 site1 site2 anchor relpose torquescale solref solimp");
 
-void readEquality(const Element& element, const MjcfDefaults& defaults, const MjcfNamed& named, ModelGraph& graph) {
+void readEquality(const Element& element, const MjcfDefaults& defaults, MjcfNamed& named, ModelGraph& graph) {
   const std::string kind = element.Name();
   const auto get = [&](const char* name) { return defaults.get(element, "", name, "equality"); };
-  const std::string name = nameOr(element, shown(kind));
+  std::string name = named.nameOf(element, shown(kind));
+  if (named.joints.count(name) != 0) name = fmt::format("{} {}", shown(kind), name);
   if (get("active") == "false") {
     graph.assumptions.push_back({"This constraint is switched off in the file and is left out", name});
     return;
   }
   if (kind != "connect" && kind != "weld")
-    refuse(
-        element,
-        fmt::format(
-            "couples what it names ({}), as a gear does, which a scenario has no words for, expected connect or weld",
-            shown(kind)));
+    refuse(element, fmt::format("couples what it names ({}), as a gear does, which a scenario has no words for, "
+                                "expected connect or weld; {}",
+                                shown(kind), without_it));
   listUnknownAttributes(element, kind == "weld" ? known_of_weld : known_of_connect, graph.assumptions);
   const std::string scale = attribute(element, "torquescale");
   const bool holds_turn = kind == "weld" && (scale.empty() || numberOf(element, scale, "torquescale") != 0);
@@ -90,10 +89,15 @@ void readActuator(const Element& element, const MjcfDefaults& defaults, const Mj
   const std::string target = get("joint").empty() ? get("jointinparent") : get("joint");
   const bool known = kind == "motor" || kind == "position" || kind == "velocity" || kind == "general" ||
                      kind == "intvelocity" || kind == "cylinder" || kind == "dcmotor";
-  if (!known || target.empty())
-    refuse(element,
-           fmt::format("a {} that acts on {}, expected a motor, position, velocity or general actuator on a joint",
-                       shown(kind), target.empty() ? "no joint" : "joint " + shown(target)));
+  if (!known || target.empty()) {
+    std::string on = target.empty() ? "no joint" : "joint " + shown(target);
+    for (const char* name : {"tendon", "site", "body", "cranksite"})
+      if (const std::string other = get(name); !other.empty() && target.empty())
+        on = fmt::format("{} {}", name, shown(other));
+    refuse(element, fmt::format("a {} that acts on {}, expected a motor, position, velocity or general actuator on a "
+                                "joint, whose effort is the joint's own",
+                                shown(kind), on));
+  }
   GraphJoint& joint = graph.joints[find(element, named.joints, target, "joint")];
   if (joint.driven)
     graph.assumptions.push_back({"Several actuators drive this joint: its effort is their sum", joint.name, 1, "1"});
@@ -116,7 +120,13 @@ void readActuator(const Element& element, const MjcfDefaults& defaults, const Mj
 
 }  // namespace
 
-void readMjcfClosures(const Element& root, const MjcfDefaults& defaults, const MjcfNamed& named, ModelGraph& graph) {
+std::string MjcfNamed::nameOf(const Element& element, const std::string& kind) {
+  const std::string name = nameOr(element, kind);
+  const int k = attribute(element, "name").empty() ? ++unnamed[name] : 1;
+  return k == 1 ? name : fmt::format("{} ({})", name, k);
+}
+
+void readMjcfClosures(const Element& root, const MjcfDefaults& defaults, MjcfNamed& named, ModelGraph& graph) {
   eachChild(root, "equality", [&](const Element& e) {
     eachChild(e, nullptr, [&](const Element& c) { readEquality(c, defaults, named, graph); });
   });

@@ -46,13 +46,15 @@ class MjcfDefaults {
   std::size_t inherited_ = 0;  ///< number of entries in all classes, because entries are copied down
 };
 
-/// Reads the <option>s of a model: gravity. Throws ImportError for forces of a fluid, and for flags that switch off
-/// what the file says elsewhere.
+/// Returns the effective text of an attribute; "" if nothing gives it.
+using MjcfGet = std::function<std::string(const char*)>;
+
+/// Reads the <option>s of a model: gravity, and forces of a fluid. Throws ImportError for flags that switch off what
+/// the file says elsewhere.
 void readMjcfOptions(const Element& root, ModelGraph& graph);
 
 /// Returns the orientation by quat, axisangle, euler, xyaxes or zaxis. Throws ImportError if more than one is given.
-Matrix3d mjcfOrientation(const Element& element, const MjcfCompiler& compiler,
-                         const std::function<std::string(const char*)>& get);
+Matrix3d mjcfOrientation(const Element& element, const MjcfCompiler& compiler, const MjcfGet& get);
 
 /// A shape between two points: its frame, and half of its length.
 struct MjcfFromTo {
@@ -63,8 +65,8 @@ MjcfFromTo mjcfFromTo(const Element& element, const std::string& points);
 
 /// Adds a geom's mass to a body. Returns whether the geom is in the groups that give inertia. `at` is the geom's parent
 /// frame in the world; `get` returns its attributes. Throws ImportError for shapes whose inertia is in another file.
-bool addGeom(const Element& geom, const MjcfCompiler& compiler, const Eigen::Isometry3d& at,
-             const std::function<std::string(const char*)>& get, GraphBody& body);
+bool addGeom(const Element& geom, const MjcfCompiler& compiler, const Eigen::Isometry3d& at, const MjcfGet& get,
+             GraphBody& body);
 
 /// Reads an <inertial>; `at` is the body's frame in the world.
 void takeInertial(const Element& inertial, const MjcfCompiler& compiler, const Eigen::Isometry3d& at, GraphBody& body);
@@ -72,6 +74,17 @@ void takeInertial(const Element& inertial, const MjcfCompiler& compiler, const E
 /// Applies balanceinertia, boundmass and boundinertia, and lists what they change. Throws ImportError for an invalid
 /// tensor.
 void boundInertia(const Element& element, const MjcfCompiler& compiler, GraphBody& body, Assumptions& assumptions);
+
+/// Reads reference, spring, friction, armature and range of a joint whose kind is known. Throws ImportError for
+/// springdamper.
+void takeMjcfNumbers(const Element& element, const MjcfCompiler& compiler, const MjcfGet& get, GraphJoint& joint);
+
+/// Returns whether gravcomp takes the whole gravity off a body. Throws ImportError for a part of it.
+bool isCompensated(const Element& body);
+
+/// Said of a file with keyframes.
+constexpr const char* keyframes_left_out =
+    "Keyframes are left out: the initial pose is the one that the bodies are written in";
 
 struct MjcfSite {
   std::size_t body = 0;
@@ -82,10 +95,14 @@ struct MjcfSite {
 struct MjcfNamed {
   std::unordered_map<std::string, std::size_t> bodies, joints;
   std::unordered_map<std::string, MjcfSite> sites;
+  std::unordered_map<std::string, int> unnamed;  ///< how many there are of each of nameOf()'s names
+
+  /// Returns an element's name; without one, a name of its own.
+  std::string nameOf(const Element& element, const std::string& kind);
 };
 
 /// Adds the joints of <equality>, which close the tree's loops. Throws ImportError.
-void readMjcfClosures(const Element& root, const MjcfDefaults& defaults, const MjcfNamed& named, ModelGraph& graph);
+void readMjcfClosures(const Element& root, const MjcfDefaults& defaults, MjcfNamed& named, ModelGraph& graph);
 
 /// Marks the joints that <actuator> drives. Throws ImportError.
 void readMjcfActuators(const Element& root, const MjcfDefaults& defaults, const MjcfNamed& named, ModelGraph& graph);

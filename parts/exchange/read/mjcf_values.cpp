@@ -143,31 +143,7 @@ std::string MjcfDefaults::get(const Element& element, const std::string& childcl
   return value == attributes->second.end() ? "" : value->second;
 }
 
-void readMjcfOptions(const Element& root, ModelGraph& graph) {
-  bool is_off = false;
-  eachChild(root, "option", [&](const Element& option) {
-    if (const std::string gravity = attribute(option, "gravity"); !gravity.empty())
-      graph.gravity = vectorOf(option, gravity, "gravity");
-    for (const char* name : {"density", "viscosity"})
-      if (const std::string value = attribute(option, name); !value.empty() && numberOf(option, value, name) != 0)
-        refuse(option, fmt::format("{} {}: forces of a fluid, which a scenario has no words for", name, value));
-    const Element* flag = onlyChild(option, "flag");
-    if (flag == nullptr) return;
-    is_off = is_off || attribute(*flag, "gravity") == "disable";
-    for (const char* name : {"equality", "constraint", "passive", "spring", "damper", "frictionloss", "actuation"})
-      if (attribute(*flag, name) == "disable")
-        refuse(*flag, fmt::format(
-                          "{}=\"disable\", which switches off what the file says elsewhere; expected a file without it",
-                          name));
-  });
-  if (!is_off) return;
-  graph.assumptions.push_back({"Gravity is switched off by the file's flag; without it it would be this", "<flag>",
-                               graph.gravity.norm(), "m/s²"});
-  graph.gravity.setZero();
-}
-
-Matrix3d mjcfOrientation(const Element& element, const MjcfCompiler& compiler,
-                         const std::function<std::string(const char*)>& get) {
+Matrix3d mjcfOrientation(const Element& element, const MjcfCompiler& compiler, const MjcfGet& get) {
   const char* given = nullptr;
   for (const char* name : {"quat", "axisangle", "euler", "xyaxes", "zaxis"}) {
     if (get(name).empty()) continue;
@@ -209,8 +185,8 @@ MjcfFromTo mjcfFromTo(const Element& element, const std::string& points) {
   return {placed((from + to) / 2, fromZTo(z)), (to - from).norm() / 2};
 }
 
-bool addGeom(const Element& geom, const MjcfCompiler& compiler, const Eigen::Isometry3d& at,
-             const std::function<std::string(const char*)>& get, GraphBody& body) {
+bool addGeom(const Element& geom, const MjcfCompiler& compiler, const Eigen::Isometry3d& at, const MjcfGet& get,
+             GraphBody& body) {
   const std::string group = get("group"), mass_text = get("mass"), density = get("density"), from_to = get("fromto");
   const double of_group = group.empty() ? 0 : numberOf(geom, group, "group");
   if (of_group < compiler.least_group || of_group > compiler.most_group) return false;

@@ -186,6 +186,7 @@ class SdfReader {
     if (!kinematic.empty() && truthOf(element, kinematic, "<kinematic>"))
       refuse(element, "<kinematic>, moved from outside, which a scenario has no words for");
     refuseSdfDecay(element);
+    noteAddedMass(element, graph_);
     takeSdfInertial(element, body, graph_.assumptions);
   }
 
@@ -209,7 +210,8 @@ class SdfReader {
     joint.centre = joint.centre_of_child = at.translation();
     joint.closure = !have_parent_.insert(joint.child).second;
     joint.rotor_inertia = drakeRotorInertia(element);
-    if (element.FirstChildElement("drake:mimic")) refuse(element, "mimic, which a scenario has no words for");
+    if (element.FirstChildElement("drake:mimic"))
+      refuse(element, fmt::format("mimic, which a scenario has no words for; {}", without_it));
     if (type == "fixed" || type == "ball") {
       joint.kind = type == "fixed" ? JointKind::fixed : JointKind::ball;
       // Readers differ in whether a ball's axis rubs; what rubs is refused later.
@@ -224,8 +226,8 @@ class SdfReader {
       addTwoAxes(element, type, frame.scope, at, joint);
     } else {
       refuse(element, fmt::format("a {} joint, which a scenario has no words for, expected revolute, prismatic, "
-                                  "universal, revolute2, ball or fixed",
-                                  shown(type)));
+                                  "universal, revolute2, ball or fixed; {}",
+                                  shown(type), without_it));
     }
   }
 
@@ -244,6 +246,7 @@ class SdfReader {
     second.name += "/axis2";
     joint.child = second.parent = graph_.bodies.size();
     second.rotor_inertia = 0;
+    joint.closure = false;  // no other joint carries the cross
     graph_.bodies.push_back(cross);
     takeAxis(element, "axis", scope, at, false, joint);
     takeAxis(element, "axis2", scope, at, false, second);

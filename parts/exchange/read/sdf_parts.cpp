@@ -27,15 +27,11 @@ void takeLimits(const Element& joint_element, const Element& axis, GraphJoint& j
 
 void takeDynamics(const Element& joint_element, const Element& dynamics, GraphJoint& joint) {
   takeRubbing(joint_element, dynamics, childText, joint);
-  const std::string stiffness = childText(dynamics, "spring_stiffness");
-  if (!stiffness.empty() && numberOf(dynamics, stiffness, "spring_stiffness") != 0)
-    refuse(joint_element, fmt::format("a spring of {}, which a scenario has no words for", stiffness));
+  takeSpring(joint_element, childText(dynamics, "spring_stiffness"), childText(dynamics, "spring_reference"), joint);
 }
 
-/// Refuses what cannot be had as numbers: added mass of a fluid, an inertia from shapes.
+/// Refuses what cannot be had as numbers: an inertia from shapes.
 void requirePlain(const Element& link, const Element& inertial) {
-  if (inertial.FirstChildElement("fluid_added_mass"))
-    refuse(link, "<fluid_added_mass>, which a scenario has no words for");
   if (attribute(inertial, "auto") == "true")
     refuse(link, "an inertia that is left to the program (auto), expected numbers; run: gz sdf -p FILE");
   const Element* pose = inertial.FirstChildElement("pose");
@@ -145,6 +141,16 @@ Eigen::Isometry3d sdfPoseOf(const Element& element) {
   return placed(position, rollPitchYaw(angles));
 }
 
+void noteAddedMass(const Element& link, ModelGraph& graph) {
+  const Element* inertial = onlyChild(link, "inertial");
+  if (inertial == nullptr || inertial->FirstChildElement("fluid_added_mass") == nullptr) return;
+  graph.other_forces.push_back(
+      {"fluid",
+       named(link) + ": <fluid_added_mass>, which a scenario has no words for",
+       link.GetLineNum(),
+       {"The mass that a fluid adds to this body is left out", attribute(link, "name"), 1, "1"}});
+}
+
 void takeSdfInertial(const Element& link, GraphBody& body, Assumptions& assumptions) {
   const Element* inertial = onlyChild(link, "inertial");
   Eigen::Isometry3d at = body.frame;
@@ -179,7 +185,8 @@ void takeSdfInertial(const Element& link, GraphBody& body, Assumptions& assumpti
 
 void takeSdfMotion(const Element& joint_element, const Element& axis, bool endless, GraphJoint& joint,
                    Assumptions& assumptions) {
-  if (axis.FirstChildElement("mimic")) refuse(joint_element, "mimic, which a scenario has no words for");
+  if (axis.FirstChildElement("mimic"))
+    refuse(joint_element, fmt::format("mimic, which a scenario has no words for; {}", without_it));
   if (!endless) takeLimits(joint_element, axis, joint);
   if (const std::string driven = attribute(axis, "ursula:driven"); !driven.empty())
     joint.driven = truthOf(axis, driven, "ursula:driven");
@@ -207,6 +214,14 @@ void requireRange(const Element& element, const GraphJoint& joint) {
            fmt::format("its lower limit, {}, is above its upper one, {}; expected it below", joint.lower, joint.upper));
 }
 
+void takeSpring(const Element& joint_element, const std::string& stiffness, const std::string& reference,
+                GraphJoint& joint) {
+  joint.stiffness = stiffness.empty() ? 0 : numberOf(joint_element, stiffness, "a spring's stiffness");
+  joint.spring_reference = reference.empty() ? 0 : numberOf(joint_element, reference, "a spring's reference");
+  if (joint.stiffness < 0)
+    refuse(joint_element, fmt::format("a spring's stiffness of {}, expected none below zero", joint.stiffness));
+}
+
 void takeRubbing(const Element& joint_element, const Element& dynamics, TextOfWord text, GraphJoint& joint) {
   for (const auto& [name, to] : {std::pair("damping", &joint.damping), std::pair("friction", &joint.friction)}) {
     const std::string word = text(dynamics, name);
@@ -222,8 +237,8 @@ void listPlugins(const Element& element, const std::string& of, Assumptions& ass
     const std::string file = attribute(e, "filename");
     for (const char* word : {"mimic", "spring"})
       if (file.find(word) != std::string::npos)
-        refuse(e, fmt::format("{} lets a joint follow another or pulls at it, which a scenario has no words for",
-                              shown(file)));
+        refuse(e, fmt::format("{} lets a joint follow another or pulls at it, which a scenario has no words for; {}",
+                              shown(file), without_it));
     assumptions.push_back(
         {fmt::format("The plugin {} is left out, with the forces that it may bring", shown(file)), of});
   });
@@ -234,7 +249,8 @@ void refuseSdfDecay(const Element& element, const std::string& factor) {
   for (const std::string& text : {factor, decay == nullptr ? "" : childText(*decay, "linear"),
                                   decay == nullptr ? "" : childText(*decay, "angular")})
     if (!text.empty() && numberOf(element, text, "velocity_decay") != 0)
-      refuse(element, fmt::format("a decay of velocity of {}, which a scenario has no words for", text));
+      refuse(element,
+             fmt::format("a decay of velocity of {}, which a scenario has no words for; {}", text, without_it));
 }
 
 void refuseSdfIncludes(const Element& scope, Assumptions& assumptions) {

@@ -55,11 +55,14 @@ class SdfFrames {
 /// Returns position and rotation of an element's <pose>; the identity without one.
 Eigen::Isometry3d sdfPoseOf(const Element& element);
 
+/// Notes the added mass of a fluid in a link's <inertial>, which the user may leave out.
+void noteAddedMass(const Element& link, ModelGraph& graph);
+
 /// Reads <inertial>: mass, mass centre and tensor, for a body whose frame is known. SDF's defaults become assumptions.
 void takeSdfInertial(const Element& link, GraphBody& body, Assumptions& assumptions);
 
-/// Reads limits, friction, motor and rotor of an <axis>; `endless` leaves the limits out. Throws ImportError for
-/// springs, mimic and joints that cannot move.
+/// Reads limits, friction, spring, motor and rotor of an <axis>; `endless` leaves the limits out. Throws ImportError
+/// for mimic and joints that cannot move.
 void takeSdfMotion(const Element& joint_element, const Element& axis, bool endless, GraphJoint& joint,
                    Assumptions& assumptions);
 
@@ -69,6 +72,10 @@ void takeRange(const Element& limit, TextOfWord text, GraphJoint& joint);
 void requireRange(const Element& element, const GraphJoint& joint);
 /// Reads damping and friction. Throws ImportError for one below zero.
 void takeRubbing(const Element& joint_element, const Element& dynamics, TextOfWord text, GraphJoint& joint);
+
+/// Reads a spring's texts, which may be empty. Throws ImportError for a stiffness below zero.
+void takeSpring(const Element& joint_element, const std::string& stiffness, const std::string& reference,
+                GraphJoint& joint);
 
 /// Lists the plugins of `element`, which may bring forces. Throws ImportError for those whose file name has "mimic" or
 /// "spring", as they couple joints or pull at them.

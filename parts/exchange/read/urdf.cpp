@@ -166,13 +166,14 @@ class UrdfReader {
     joint.centre = joint.centre_of_child = at.translation();
     joint.rotor_inertia = drakeRotorInertia(element);
     if (element.FirstChildElement("mimic") || element.FirstChildElement("drake:mimic"))
-      refuse(element, "mimic: it follows another joint, which a scenario has no words for");
+      refuse(element,
+             fmt::format("mimic: it follows another joint, which a scenario has no words for; {}", without_it));
     const auto kind = kinds_of_joint.find(type);
     if (kind == kinds_of_joint.end())
       refuse(element,
              fmt::format(
-                 "a {} joint, which a scenario has no words for, expected revolute, continuous, prismatic or fixed",
-                 shown(type)));
+                 "a {} joint, which a scenario has no words for, expected revolute, continuous, prismatic or fixed{}",
+                 shown(type), type == "planar" ? "; two slides and a hinge are the same" : ""));
     joint.kind = kind->second;
     const Element* axis = onlyChild(element, "axis");
     const std::string xyz = axis == nullptr ? "" : attribute(*axis, "xyz");
@@ -229,7 +230,8 @@ class UrdfReader {
       eachChild(e, "joint", [this](const Element& of) {
         eachChild(of, "param", [&](const Element& param) {
           if (attribute(param, "name") == "mimic" && attribute(of, "mimic") != "false")
-            refuse(of, "mimic: it follows another joint, which a scenario has no words for");
+            refuse(of,
+                   fmt::format("mimic: it follows another joint, which a scenario has no words for; {}", without_it));
         });
         if (of.FirstChildElement("command_interface") != nullptr) driven(of, attribute(of, "name"));
       });

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/text.h"
 #include "parts/exchange/read/mjcf_parts.h"
 #include "parts/exchange/read/sdf_parts.h"
@@ -27,6 +29,16 @@ const std::set<std::string> known_in_gazebo = wordsOf(
     "gravity turnGravityOff kinematic static springStiffness springReference material mu1 mu2 kp kd fdir1 maxVel "
     "minDepth maxContacts selfCollide self_collide laserRetro sensor plugin visual collision provideFeedback "
     "implicitSpringDamper stopCfm stopErp cfmDamping fudgeFactor joint disableFixedJointLumping preserveFixedJoint");
+
+/// Reads the spring of the joint `of`.
+void takeGazeboSpring(const Element& gazebo, const std::string& of, ModelGraph& graph) {
+  const std::string stiffness = childText(gazebo, "springStiffness"), reference = childText(gazebo, "springReference");
+  if (stiffness.empty() && reference.empty()) return;
+  const auto joint =
+      std::find_if(graph.joints.begin(), graph.joints.end(), [&](const GraphJoint& each) { return each.name == of; });
+  if (joint == graph.joints.end()) refuse(gazebo, fmt::format("a spring in '{}': no joint has that name", shown(of)));
+  takeSpring(gazebo, stiffness, reference, *joint);
+}
 
 }  // namespace
 
@@ -72,9 +84,7 @@ void readUrdfGazebo(const Element& robot, const UrdfLinks& links, ModelGraph& gr
     if (link != links.end() &&
         ((!on.empty() && !truthOf(e, on, "<gravity>")) || (!off.empty() && truthOf(e, off, "<turnGravityOff>"))))
       graph.bodies[link->second].weightless = true;
-    const std::string spring = childText(e, "springStiffness");
-    if (!spring.empty() && numberOf(e, spring, "<springStiffness>") != 0)
-      refuse(e, fmt::format("a spring of {} in joint {}, which a scenario has no words for", spring, shown(of)));
+    takeGazeboSpring(e, of, graph);
   });
 }
 

@@ -34,6 +34,9 @@ void parseXml(const std::string& text, tinyxml2::XMLDocument& document);
 std::string named(const Element& element);
 [[noreturn]] void refuse(const Element& element, const std::string& what);
 
+/// Ends the refusal of what couples or pulls: what would help.
+constexpr const char* without_it = "without it, in the file and in your engine, the machine can be taken";
+
 /// Returns an attribute without surrounding white space; "" if it is missing.
 std::string attribute(const Element& element, const char* name);
 std::string requiredAttribute(const Element& element, const char* name);
@@ -74,7 +77,7 @@ void listUnknownAttributes(const Element& element, const std::set<std::string>& 
 void refuseCouplings(const Element& element, const std::set<std::string>& children,
                      const std::function<bool(const std::string&)>& is_machines);
 
-/// Returns the element's name, or "KIND of line N" if it has none.
+/// Returns the element's name, or "KIND of line N" if it has none; in an included file "KIND of BODY".
 std::string nameOr(const Element& element, const std::string& kind);
 /// Returns a joint of that name at the element's line.
 GraphJoint jointAt(const Element& element, const std::string& name, JointKind kind = JointKind::fixed);
@@ -101,6 +104,11 @@ Matrix3d tensorOf(const Vector3d& diagonal, const Vector3d& products);
 /// elements that a scenario cannot express.
 ModelGraph readSdf(const Element& root);
 ModelGraph readMjcf(const Element& root);
+/// Puts the content of the files that <include>s of an MJCF name in their place. They lie in the folder of `file`,
+/// which is the model, or below it. Throws ImportError.
+void takeIncludes(tinyxml2::XMLDocument& document, const std::filesystem::path& file);
+/// Throws ImportError if a file beside the model is a link that leads out of the model's folder.
+void requireInFolder(const std::filesystem::path& file, const std::filesystem::path& folder);
 /// Looks for robot.yaml next to `file`.
 ModelGraph readUrdf(const Element& root, const std::filesystem::path& file);
 

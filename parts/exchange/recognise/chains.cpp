@@ -180,7 +180,7 @@ bool holdsNothing(const ModelGraph& graph, const Groups& groups, const Chain& ch
   for (const Primitive& p : chain.primitives) {
     const GraphJoint& joint = graph.joints[p.joint];
     if (p.behind && !groups.groups[*p.behind].isFrame()) return false;
-    if (joint.driven || joint.damping != 0 || joint.friction != 0 || joint.rotor_inertia != 0) return false;
+    if (joint.driven || joint.isLoaded()) return false;
     freedoms += p.kind == Primitive::Kind::S ? 3 : 1;
     slides += p.kind == Primitive::Kind::P ? 1 : 0;
   }

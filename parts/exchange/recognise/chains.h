@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +40,10 @@ struct Group {
 /// Throws ImportError if a part of the group has no gravity.
 void requireWeight(const Group& group);
 
+/// Throws ImportError for what a [manipulator] has no words for, wherever it is: springs, forces of a fluid, a free
+/// joint that rubs.
+void requireWords(const ModelGraph& graph);
+
 /// The machine's rigid bodies. Only moving joints remain between them.
 struct Groups {
   std::vector<Group> groups;
@@ -57,6 +62,10 @@ struct Groups {
 
 /// Returns the index of the named body. Throws ImportError with the nearest name if there is none.
 std::size_t bodyNamed(const ModelGraph& graph, const std::string& name, const std::string& option);
+/// Closes a loop by a ball at the origins of the frames of two links, "A:B"; `body` finds them. Returns false for a
+/// text that is no pair.
+bool closeAtFrames(ModelGraph& graph, const std::string& pair,
+                   const std::function<std::size_t(const std::string&)>& body);
 
 /// A single-axis joint or a ball between base and platform, at the initial pose. Its vectors are in the world.
 struct Primitive {

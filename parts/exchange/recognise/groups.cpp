@@ -27,7 +27,10 @@ void refuseJoint(const GraphJoint& joint, const std::string& what) {
 }
 
 void requireWeight(const Group& group) {
-  if (group.weightless) refuseBody(group, " has its gravity switched off, which a scenario has no key for");
+  if (group.weightless)
+    refuseBody(group,
+               " has its gravity switched off (SDF's <gravity>, MJCF's gravcomp, Gazebo's turnGravityOff), which a "
+               "[manipulator] has no key for; [mechanism] has");
 }
 
 Matrix3d Group::inertiaAbout(const Vector3d& point) const {
@@ -149,6 +152,24 @@ std::size_t bodyNamed(const ModelGraph& graph, const std::string& name, const st
     if (names.size() < 1000) names.push_back(graph.bodies[i].name);
   }
   throw ImportError(fmt::format("{}: no body '{}'{}", option, shown(name), didYouMean(name, names)));
+}
+
+bool closeAtFrames(ModelGraph& graph, const std::string& pair,
+                   const std::function<std::size_t(const std::string&)>& body) {
+  std::size_t colon = pair.find(':');
+  // Names of nested models contain two colons.
+  while (colon != std::string::npos && pair.compare(colon, 2, "::") == 0) colon = pair.find(':', colon + 2);
+  if (colon == std::string::npos || colon == 0 || colon + 1 == pair.size()) return false;
+  GraphJoint ball;
+  ball.name = "close " + pair;
+  ball.kind = JointKind::ball;
+  ball.closure = true;
+  ball.parent = body(pair.substr(0, colon));
+  ball.child = body(pair.substr(colon + 1));
+  ball.centre = graph.bodies[ball.parent].frame.translation();
+  ball.centre_of_child = graph.bodies[ball.child].frame.translation();
+  graph.joints.push_back(ball);
+  return true;
 }
 
 }  // namespace ursula::exchange

@@ -16,22 +16,10 @@ namespace {
 
 /// Applies `--close A:B`: a ball joins the origins of the two links' frames.
 void close(ModelGraph& graph, const std::vector<std::string>& pairs) {
-  for (const std::string& pair : pairs) {
-    std::size_t colon = pair.find(':');
-    // Names of nested models contain two colons.
-    while (colon != std::string::npos && pair.compare(colon, 2, "::") == 0) colon = pair.find(':', colon + 2);
-    if (colon == std::string::npos || colon == 0 || colon + 1 == pair.size())
+  for (const std::string& pair : pairs)
+    if (!closeAtFrames(graph, pair,
+                       [&](const std::string& name) { return bodyNamed(graph, name, "--close " + shown(pair)); }))
       throw ImportError(fmt::format("--close {}: expected two links, A:B", shown(pair)));
-    GraphJoint ball;
-    ball.name = "close " + pair;
-    ball.kind = JointKind::ball;
-    ball.closure = true;
-    ball.parent = bodyNamed(graph, pair.substr(0, colon), "--close " + shown(pair));
-    ball.child = bodyNamed(graph, pair.substr(colon + 1), "--close " + shown(pair));
-    ball.centre = graph.bodies[ball.parent].frame.translation();
-    ball.centre_of_child = graph.bodies[ball.child].frame.translation();
-    graph.joints.push_back(ball);
-  }
 }
 
 /// Applies `--actuated J,…` instead of the file's motors.
@@ -107,6 +95,7 @@ class Recogniser {
   Recogniser(ModelGraph graph, const ImportChoices& choices) : graph_(std::move(graph)), choices_(choices) {}
 
   ImportedMachine machine() {
+    requireWords(graph_);
     close(graph_, choices_.closed);
     drive(graph_, choices_.actuated);
     Assumptions gaps;
