@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/files_apart.h"
+#include "apps/mechanism.h"
 #include "apps/output.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
@@ -25,6 +26,7 @@ struct CheckOptions {
 /// Prints warnings to standard output and errors to standard error; returns false if there is an error.
 bool checkOne(const std::string& file, const CheckOptions& options) {
   try {
+    if (const auto mechanism = openMechanism(file)) return checkMechanism(*mechanism) == exit_passed;
     const Scenario scenario = readScenarioOrInput(file);
     requireApart(scenario, {options.picture});
     for (const std::string& note : readAs(scenario)) say("{}\n", note);
@@ -40,6 +42,9 @@ bool checkOne(const std::string& file, const CheckOptions& options) {
     return true;
   } catch (const ScenarioError& error) {
     say("{}\n", atLength(error));
+    return false;
+  } catch (const InputError& error) {
+    say("{}\n", error.what());
     return false;
   }
 }

@@ -8,6 +8,7 @@
 
 #include "apps/choice.h"
 #include "apps/embedded_scenario.h"
+#include "apps/mechanism.h"
 #include "apps/output.h"
 #include "apps/verbs.h"
 #include "base/text.h"
@@ -17,7 +18,7 @@ namespace ursula {
 namespace {
 
 struct InitOptions {
-  std::string file, kind = "URS", from;
+  std::string file, kind = "URS", from, model;
   int lengths_per_metre = 1;
 };
 
@@ -46,6 +47,7 @@ std::string textFor(const std::string& file, LegKind kind) {
 int init(const InitOptions& options) {
   if (options.file != "-" && std::filesystem::exists(std::filesystem::symlink_status(options.file)))
     throw UsageError(options.file + " exists, expected the name of a new file");
+  if (!options.model.empty()) return initFromModel(options.file, options.model);
   writeOutput(options.file, options.from.empty() ? textFor(options.file, kindOf(options.kind))
                                                  : withLengthsInMetres(options.lengths_per_metre, options.from));
   if (options.file != "-") say("wrote {}; change it, then: ursula check {}\n", options.file, shellWord(options.file));
@@ -67,6 +69,10 @@ void addInit(CLI::App& app, std::function<int()>& run) {
                                           "Unit of the lengths in --from, which the new file has in m; all else stays");
   takeOneOf<int>(lengths, {{"mm", 1000}, {"cm", 100}})->needs(from);
   from->needs(lengths)->excludes(kind);
+  verb->add_option("--model", options->model,
+                   "Model of a machine with closed loops (MJCF, SDF, URDF) to write a scenario for")
+      ->excludes(kind)
+      ->excludes(from);
   verb->callback([options, &run] { run = [options] { return init(*options); }; });
 }
 

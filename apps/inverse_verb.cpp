@@ -5,6 +5,7 @@
 #include <string>
 #include <thread>
 
+#include "apps/mechanism.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
@@ -21,6 +22,8 @@ struct InverseOptions {
 };
 
 int inverse(const InverseOptions& options) {
+  if (const auto mechanism = openMechanism(options.scenario))
+    return inverseOfMechanism(*mechanism, options.samples, options.out);
   const Scenario scenario = openScenario(options.scenario, {options.out});
   const BlockTable table = inverseBlocks(scenario, options.samples);
   Progress progress(scenario.name);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/files_apart.h"
+#include "apps/mechanism.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/suite/suite.h"
@@ -79,11 +80,22 @@ ValidationResult judge(const Scenario& scenario, const ValidateOptions& options)
   return validate(scenario, validation);
 }
 
-int validateOne(const Scenario& scenario, const ValidateOptions& options, const std::filesystem::path& dir) {
+/// Judges a member of either kind.
+ValidationResult judge(const SuiteMember& member, const ValidateOptions& options) {
+  if (member.scenario) return judge(*member.scenario, options);
+  MechanismOptions validation;
+  validation.time_limit = options.time_limit;
+  std::optional<Progress> progress;
+  if (!options.quiet) progress.emplace(member.name);
+  if (progress) validation.progress = [&progress](double share, const char* now) { progress->at(share, now); };
+  return judgeMechanism(*member.mechanism, options.torques, options.map, options.solver, validation);
+}
+
+int validateOne(const SuiteMember& member, const ValidateOptions& options, const std::filesystem::path& dir) {
   OutputFolder out(dir, report::resultsIn);
   requireResults(out, "");
   const Stopwatch watch;
-  ValidationResult result = judge(scenario, options);
+  ValidationResult result = judge(member, options);
   addResults(result, out, "", watch.time(), Place::alone);
   out.commit();
   printResult(result, dir, options.form());
@@ -118,7 +130,13 @@ int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions
   suite.jobs = options.jobs;
   ValidationOptions validation;
   validation.time_limit = options.time_limit > 0 ? options.time_limit : suite_time_limit;
-  suite.judge = [validation, &options](const Scenario& scenario) {
+  suite.judge = [validation, &options](const SuiteMember& member) {
+    if (!member.scenario) {
+      MechanismOptions of_mechanism;
+      of_mechanism.time_limit = validation.time_limit;
+      return judgeMechanism(*member.mechanism, "", {}, options.solver, of_mechanism);
+    }
+    const Scenario& scenario = *member.scenario;
     if (!options.quiet) sayWork(scenario, validation.time_limit, !options.solver.command.empty());
     return options.solver.command.empty() ? validate(scenario, validation)
                                           : validateExternalSolver(scenario, options.solver, validation);
@@ -149,6 +167,11 @@ void requireConsistent(const ValidateOptions& options, const std::vector<SuiteMe
     throw UsageError("--solver: got - as the scenario, expected a file, because the command gets its path");
 }
 
+std::shared_ptr<const MechanismScenario> withTolerance(const EffortTolerance& users, MechanismScenario scenario) {
+  setTolerance(users, scenario.tolerance);
+  return std::make_shared<const MechanismScenario>(std::move(scenario));
+}
+
 /// A folder is always a suite, so that scripts find the same files.
 bool isSuite(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
   const auto is_folder = [](const std::string& each) {
@@ -173,6 +196,7 @@ std::vector<std::filesystem::path> inputsOf(const ValidateOptions& options, cons
   std::vector<std::filesystem::path> out(options.scenarios.begin(), options.scenarios.end());
   if (!options.torques.empty()) out.emplace_back(options.torques);
   for (const SuiteMember& member : members) {
+    if (member.mechanism) out.push_back(member.mechanism->model);
     if (!member.scenario) continue;
     for (std::filesystem::path& each : filesNamedBy(*member.scenario)) out.push_back(std::move(each));
   }
@@ -191,13 +215,14 @@ int validateAll(const ValidateOptions& options) {
       std::none_of(members.begin(), members.end(), [](const auto& each) { return each.error.empty(); });
   if (options.strict || none_good) members = allOrNothing(std::move(members));
   requireConsistent(options, members);
-  for (SuiteMember& member : members)
+  for (SuiteMember& member : members) {
     if (member.scenario) setTolerance(options.tolerance, *member.scenario);
+    if (member.mechanism) member.mechanism = withTolerance(options.tolerance, *member.mechanism);
+  }
   const std::filesystem::path dir = folderOf(options, members);
   if (const auto input = report::replacedInput(inputsOf(options, members), dir); !input.empty())
     refuseToReplace(dir.string(), input);
-  return isSuite(options, members) ? validateSuite(members, options, dir)
-                                   : validateOne(*members.front().scenario, options, dir);
+  return isSuite(options, members) ? validateSuite(members, options, dir) : validateOne(members.front(), options, dir);
 }
 
 void addOutputOptions(CLI::App& verb, ValidateOptions& options) {

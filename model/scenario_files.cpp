@@ -66,14 +66,19 @@ std::string scenarioText(const std::filesystem::path& file) {
   }
 }
 
-Scenario readScenarioOrInput(const std::filesystem::path& file) {
-  static constexpr const char* input = "<stdin>";
-  if (file != "-") return readScenario(file);
+std::filesystem::path namedInput(const std::filesystem::path& file) { return file == "-" ? "<stdin>" : file; }
+
+std::string scenarioTextOrInput(const std::filesystem::path& file) {
+  if (file != "-") return scenarioText(file);
   try {
-    return parseScenario(readStandardInput({most_toml_bytes, "a scenario in TOML"}), input);
+    return readStandardInput({most_toml_bytes, "a scenario in TOML"});
   } catch (const TextRefusal& refusal) {
-    throw errorAt(input, refusal);
+    throw errorAt(namedInput(file).string(), refusal);
   }
+}
+
+Scenario readScenarioOrInput(const std::filesystem::path& file) {
+  return parseScenario(scenarioTextOrInput(file), namedInput(file));
 }
 
 }  // namespace ursula

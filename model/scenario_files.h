@@ -23,6 +23,12 @@ std::vector<std::string> readAs(const Scenario& scenario);
 /// Reads the text of a scenario file. Throws ScenarioError if it cannot be read.
 std::string scenarioText(const std::filesystem::path& file);
 
+/// Returns the file's name in errors: <stdin> for "-".
+std::filesystem::path namedInput(const std::filesystem::path& file);
+
+/// Reads the text of a scenario file, or standard input if `file` is "-".
+std::string scenarioTextOrInput(const std::filesystem::path& file);
+
 /// Calls readScenario(), or reads standard input if `file` is "-". Then errors name it <stdin>, and relative paths
 /// refer to the current folder. Standard input can be read once.
 Scenario readScenarioOrInput(const std::filesystem::path& file);

@@ -16,8 +16,9 @@ VALIDATION = {
     "checks": "verdict subject limits samples replay evidence",
     "findings": "verdict subject limits samples replay",
     "check_scenario": "subject",
+    "mechanism": "verdict subject evidence checks findings",
     "": "verdict subject limits samples evidence checks findings",  # the entry: validation/*.cpp
-    "outside": "verdict subject ",
+    "outside": "verdict subject mechanism",
 }
 REPORT_SEES = {"verdict", "subject", "findings"}  # of validation/
 ROW = re.compile(r"^ursula_part\((\w+)([^)]*)\)", re.M)

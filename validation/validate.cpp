@@ -201,9 +201,11 @@ ValidationResult validate(const Scenario& scenario, const ValidationOptions& opt
   return validateOwn(scenario, noc, true, options);
 }
 
-void setTolerance(const EffortTolerance& users, Scenario& scenario) {
-  if (users.relative > 0 || users.absolute > 0) scenario.tolerance = users;
-  if (scenario.tolerance) scenario.tolerance->any = users.any;
+void setTolerance(const EffortTolerance& users, Scenario& scenario) { setTolerance(users, scenario.tolerance); }
+
+void setTolerance(const EffortTolerance& users, std::optional<EffortTolerance>& tolerance) {
+  if (users.relative > 0 || users.absolute > 0) tolerance = users;
+  if (tolerance) tolerance->any = users.any;
 }
 
 double estimatedSeconds(const Scenario& scenario) {

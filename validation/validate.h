@@ -47,6 +47,7 @@ ValidationResult validateMade(const Scenario& scenario, const SubjectOf& make, c
 
 /// Sets the user's tolerance. It takes precedence over the scenario's own, unless both its numbers are 0.
 void setTolerance(const EffortTolerance& users, Scenario& scenario);
+void setTolerance(const EffortTolerance& users, std::optional<EffortTolerance>& tolerance);
 
 /// Throws OutOfTime after the deadline, as does any later request for a missing part.
 std::shared_ptr<const Reference> makeReference(const Scenario& scenario, int threads = 1,

@@ -17,6 +17,7 @@
 #include "model/scenario_excerpt.h"
 #include "model/scenario_files.h"
 #include "report/files/run.h"
+#include "validation/mechanism/validate_mechanism.h"
 #include "validation/subject/motion_check.h"
 
 namespace ursula {
@@ -31,14 +32,27 @@ std::vector<std::filesystem::path> scenariosIn(const std::filesystem::path& fold
 }
 
 SuiteMember readMember(const std::filesystem::path& file) {
-  SuiteMember member{file.string(), {}, "", ""};
+  SuiteMember member;
+  member.name = file.string();
   try {
-    member.scenario = readScenarioOrInput(file);
+    std::string text = scenarioTextOrInput(file);
+    if (isMechanism(text)) {
+      member.mechanism =
+          std::make_shared<const MechanismScenario>(parseMechanism(text, namedInput(file), partModelReader()));
+      member.name = member.mechanism->name;
+      static_cast<void>(MechanismAlong(*member.mechanism));
+      return member;
+    }
+    member.scenario = parseScenario(text, namedInput(file));
     member.name = member.scenario->name;
     tryMotion(*member.scenario);
   } catch (const ScenarioError& error) {
     member.error = error.what();  // starts with file:line:column
     member.at_length = atLength(error);
+  } catch (const InputError& error) {
+    member.error = error.what();
+  } catch (const LoopError& error) {
+    member.error = fmt::format("{}: error: {}", file.string(), error.what());
   }
   return member;
 }
@@ -48,7 +62,7 @@ void readFolder(const std::filesystem::path& folder, std::vector<SuiteMember>& m
   for (const std::filesystem::path& file : files) members.push_back(readMember(file));
   if (files.empty())
     members.push_back(
-        {folder.string(), {}, folder.string() + ": error: no scenario in this folder, expected *.toml", ""});
+        {folder.string(), {}, nullptr, folder.string() + ": error: no scenario in this folder, expected *.toml", ""});
 }
 
 /// The names become folders next to the suite's own files.
@@ -60,8 +74,8 @@ void checkNames(const std::vector<SuiteMember>& members) {
              {"junit.xml", "the suite's JUnit file"},
              {"suite.json", "the suite's summary"}};
   for (const SuiteMember& member : members) {
-    if (!member.scenario) continue;
-    const std::string file = member.scenario->file.string();
+    if (!member.isRead()) continue;
+    const std::string file = (member.mechanism ? member.mechanism->file : member.scenario->file).string();
     const auto [holder, is_new] = taken.emplace(member.name, file);
     if (!is_new)
       errors.push_back(fmt::format("{}: error: name = '{}' is also that of {}, expected a name for each", file,
@@ -93,7 +107,7 @@ class SuiteRun {
     std::string error = member.error;
     std::optional<ValidationResult> result;
     try {
-      if (error.empty()) result = options_.judge(*member.scenario);
+      if (error.empty()) result = options_.judge(member);
     } catch (const std::bad_alloc&) {
       error = out_of_memory_for_scenario;
     } catch (const std::exception& refusal) {
@@ -144,7 +158,7 @@ std::vector<SuiteEntry> runSuite(const std::vector<SuiteMember>& members, const 
   OutputFolder out(dir, report::resultsIn);
   for (const char* file : report::suite_files) out.require(file);
   for (const SuiteMember& member : members)
-    if (member.scenario) requireResults(out, member.name);
+    if (member.isRead()) requireResults(out, member.name);
   std::vector<SuiteEntry> entries = SuiteRun(members, out, options).run();
   addSuiteIndex(entries, out);
   out.commit();

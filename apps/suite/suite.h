@@ -3,10 +3,12 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "model/mechanism_scenario.h"
 #include "model/scenario.h"
 #include "report/files/report.h"
 #include "validation/verdict/result.h"
@@ -17,8 +19,11 @@ namespace ursula {
 struct SuiteMember {
   std::string name;  ///< the scenario's name, or the file's if it could not be read
   std::optional<Scenario> scenario;
-  std::string error;           ///< why it cannot be judged, starting with file:line:column; else empty
+  std::shared_ptr<const MechanismScenario> mechanism = nullptr;  ///< instead, for a scenario with [mechanism]
+  std::string error = {};      ///< why it cannot be judged, starting with file:line:column; else empty
   std::string at_length = {};  ///< the same with the line in the file, if it is known
+
+  bool isRead() const { return scenario.has_value() || mechanism != nullptr; }
 };
 
 /// Reads the scenarios named by `arguments`, in their order. An argument is a file, - for standard input, or a folder,
@@ -34,7 +39,7 @@ std::vector<SuiteMember> allOrNothing(std::vector<SuiteMember> members);
 struct SuiteOptions {
   int jobs = 1;  ///< number of threads, >= 1
   /// Several threads call it at once, each for another scenario.
-  std::function<ValidationResult(const Scenario&)> judge;
+  std::function<ValidationResult(const SuiteMember&)> judge;
   /// Receives each finished scenario and the number of finished ones; calls never overlap. May be empty.
   std::function<void(const SuiteEntry&, std::size_t done)> finished;
 };

@@ -10,8 +10,6 @@
 namespace ursula {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
 /// Judges one kind of value over the samples.
 class Judge {
  public:
@@ -19,7 +17,7 @@ class Judge {
 
   std::string motorName(int k) const { return k < 0 ? "" : mechanism_.motor(static_cast<std::size_t>(k)).name; }
 
-  /// MotorEfforts of the subject against `theirs`, which returns null where there are none.
+  /// Efforts of the subject against `theirs`, which returns null where there are none.
   template <class Theirs>
   Check efforts(const std::string& name, const std::string& what, const std::vector<MechanismSample>& samples,
                 const Theirs& theirs) const {
@@ -66,7 +64,7 @@ class Judge {
       const double own = size(sample);
       condition = std::max(condition, sample.condition);
       of.size = std::max(of.size, own);
-      worst.add(value(sample), times * evidence_.level * eps * sample.condition * sample.condition * own,
+      worst.add(value(sample), times * evidence_.level * rounding * sample.condition * sample.condition * own,
                 sample.motion.t);
     }
     of.seen = of.along = of.size;
@@ -142,7 +140,7 @@ Check judgeInvariance(const Judge& judge, const MechanismInvariance& invariance)
   for (const InvarianceSample& sample : invariance.samples)
     for (Eigen::Index k = 0; k < sample.difference.size(); ++k) {
       condition = std::max(condition, sample.condition);
-      const double limit = evidence.level * eps * sample.condition * sample.condition * sample.scale(k);
+      const double limit = evidence.level * rounding * sample.condition * sample.condition * sample.scale(k);
       worst.add(std::abs(sample.difference(k)) * evidence.efforts_in(k), 2 * limit * evidence.efforts_in(k), sample.t,
                 static_cast<int>(k));
     }

@@ -12,8 +12,6 @@
 namespace ursula {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
 /// Half the angle's sine of a relative rotation, times two: the angle for small ones.
 double turnBetween(const Matrix3d& a, const Matrix3d& b) { return (a - b).norm() / std::sqrt(2.0); }
 
@@ -129,7 +127,7 @@ void setUnits(const Mechanism& mechanism, MechanismEvidence& out) {
 }  // namespace
 
 double MechanismEvidence::limit(const MechanismSample& sample, Eigen::Index k) const {
-  return level * eps * sample.condition * sample.condition * sample.scale(k) * efforts_in(k);
+  return level * rounding * sample.condition * sample.condition * sample.scale(k) * efforts_in(k);
 }
 
 MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopMotion& motion,

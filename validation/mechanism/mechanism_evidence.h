@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,7 +13,10 @@
 
 namespace ursula {
 
-/// MotorEfforts of all motors, one entry each.
+/// The relative rounding of a double.
+constexpr double rounding = std::numeric_limits<double>::epsilon();
+
+/// Efforts of all motors, one entry each.
 using MotorEfforts = Eigen::VectorXd;
 
 /// What a solver is asked about one instant: the motors' motion, and all other joints'.
@@ -21,7 +25,7 @@ struct MechanismQuestion {
   std::vector<LoopSolver::JointValue> joints;
 };
 
-/// MotorEfforts at instants of their own, from a file or a program.
+/// Efforts at instants of their own, from a file or a program.
 struct GivenEfforts {
   std::string name;
   bool is_read = false;
@@ -119,7 +123,7 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
 void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const Deadline& deadline,
                      MechanismEvidence& evidence);
 
-/// MotorEfforts of changed machines: `invariance.*`.
+/// Efforts of changed machines: `invariance.*`.
 std::vector<MechanismInvariance> askInvariances(const MechanismScenario& scenario, const LoopMotion& motion);
 
 /// The checks of the catalogue that the evidence holds.

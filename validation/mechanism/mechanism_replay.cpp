@@ -11,8 +11,6 @@ namespace {
 
 using State = std::vector<double>;
 constexpr int window_count = 12;
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
 /// Where the output body is at a window's end.
 struct End {
   Eigen::Isometry3d output = Eigen::Isometry3d::Identity();
@@ -120,7 +118,7 @@ void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const
     window.position = apart(fine.output, wanted);
     window.orientation = turnBetween(fine.output, wanted);
     window.order_gain = apart(fine.output, coarse.output);
-    const double floor = evidence.level * eps * sample.condition * sample.condition;
+    const double floor = evidence.level * rounding * sample.condition * sample.condition;
     window.position_limit = allowance * (window.order_gain + apart(noisy.output, fine.output) + floor * length);
     window.orientation_limit =
         allowance * (turnBetween(fine.output, coarse.output) + turnBetween(noisy.output, fine.output) + floor);

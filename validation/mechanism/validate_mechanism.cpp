@@ -104,18 +104,19 @@ std::optional<EffortDeviation> deviationOf(const MechanismEvidence& evidence, co
   return out;
 }
 
-std::string whyNotOf(const CheckRow& check, const MechanismSubject& subject, const MechanismEvidence& evidence) {
-  const std::string name = check.name;
-  if (!evidence.not_replayed.empty() && (isOf({name}, "replay") || isOf({name}, "closure")))
-    return evidence.not_replayed;
+std::string whyNotOf(const CheckRow& row, const MechanismSubject& subject, const MechanismEvidence& evidence) {
+  Check check;
+  check.name = row.name;
+  const std::string& name = check.name;
+  if (!evidence.not_replayed.empty() && (isOf(check, "replay") || isOf(check, "closure"))) return evidence.not_replayed;
   for (const char* of_paths : {"feedback", "integration", "energy", "motion", "fast", "reactions"})
-    if (isOf({name}, of_paths)) return "not made for machines of this kind";
+    if (isOf(check, of_paths)) return "not made for machines of this kind";
   if (name == "kinematics.joint_angles" || name == "kinematics.joint_rates" || name == "kinematics.joint_accelerations")
     return "the bodies' motion is compared instead";
-  if (isOf({name}, "kinematics") || name == "direct.off_path" || name == "invariance.engines")
+  if (isOf(check, "kinematics") || name == "direct.off_path" || name == "invariance.engines")
     return subject.isNoc() ? "not made for machines of this kind" : "the subject gives efforts alone";
-  if (check.needs == CheckNeeds::further_engine) return "this build has no such engine for machines of this kind";
-  if (check.needs == CheckNeeds::torque_file) return "the efforts are the NOC's own";
+  if (row.needs == CheckNeeds::further_engine) return "this build has no such engine for machines of this kind";
+  if (row.needs == CheckNeeds::torque_file) return "the efforts are the NOC's own";
   if (subject.isNoc()) return evidence.out_of_time.empty() ? "not made for machines of this kind" : "";
   if (subject.given) return "a file gives efforts alone, at its own instants";
   return "the subject gives efforts alone";

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "model/scenario.h"
+#include "validation/mechanism/validate_mechanism.h"
 #include "validation/outside/line_process.h"
 #include "validation/outside/outside_solver.h"
 
@@ -18,5 +19,10 @@ struct ExternalSolverOptions {
 /// if it cannot be started.
 ValidationResult validateExternalSolver(const Scenario& scenario, const ExternalSolverOptions& options,
                                         const ValidationOptions& validation = {});
+
+/// The same for a mechanism: a line has t, the motors' q, rates and accelerations, then the same of all other joints.
+/// URSULA_COLUMNS names them, and URSULA_MODEL is the model's path.
+ValidationResult validateExternalSolver(const MechanismScenario& scenario, const ExternalSolverOptions& options,
+                                        const MechanismOptions& validation = {});
 
 }  // namespace ursula

@@ -185,7 +185,9 @@ std::string solverQuestion(const Motion<double>& motion) {
                      cells(motion.p_dot), cells(motion.omega), cells(motion.p_ddot), cells(motion.omega_dot));
 }
 
-Vector6d solverAnswer(const std::string& line) {
+Vector6d solverAnswer(const std::string& line) { return solverAnswer(line, motor_count); }
+
+Eigen::VectorXd solverAnswer(const std::string& line, int motors) {
   std::vector<std::string_view> cells;
   const std::string_view text = line;
   for (std::size_t start = 0; start <= text.size();) {
@@ -193,11 +195,12 @@ Vector6d solverAnswer(const std::string& line) {
     cells.push_back(text.substr(start, end - start));
     start = end + 1;
   }
-  if (cells.size() != motor_count)
-    throw SolverProcessError(
-        fmt::format("{} value{}, expected six, separated by commas", cells.size(), cells.size() == 1 ? "" : "s"));
-  Vector6d out;
-  for (int i = 0; i < motor_count; ++i) out(i) = numberOf(cells[static_cast<std::size_t>(i)], i + 1);
+  if (cells.size() != static_cast<std::size_t>(motors))
+    throw SolverProcessError(fmt::format("{} value{}, expected {}, separated by commas", cells.size(),
+                                         cells.size() == 1 ? "" : "s",
+                                         motors == motor_count ? "six" : std::to_string(motors)));
+  Eigen::VectorXd out(motors);
+  for (int i = 0; i < motors; ++i) out(i) = numberOf(cells[static_cast<std::size_t>(i)], i + 1);
   return out;
 }
 

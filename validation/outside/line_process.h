@@ -60,6 +60,8 @@ std::string solverQuestion(const Motion<double>& motion);
 /// Parses six comma-separated efforts in the order of the motors, N·m or N. Throws SolverProcessError with the defect
 /// of `line`.
 Vector6d solverAnswer(const std::string& line);
+/// The same for any number of motors.
+Eigen::VectorXd solverAnswer(const std::string& line, int motors);
 
 /// The largest part of an answer in messages, in bytes.
 constexpr std::size_t most_shown = 600;

@@ -1,0 +1,178 @@
+#include "apps/mechanism.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/output.h"
+#include "apps/verbs.h"
+#include "base/csv.h"
+#include "base/text.h"
+#include "model/instants.h"
+#include "model/scenario_files.h"
+#include "validation/mechanism/validate_mechanism.h"
+
+namespace ursula {
+namespace {
+
+/// Turns errors of the loops into errors at the scenario.
+template <class Run>
+auto along(const MechanismScenario& scenario, const Run& run) {
+  try {
+    return run();
+  } catch (const LoopError& error) {
+    throw ScenarioError(fmt::format("{}: error: {}", scenario.file.string(), error.what()));
+  }
+}
+
+/// Splits NAME=COLUMN, where NAME is t_s or an effort's column by the contract.
+std::vector<std::pair<std::string, std::string>> columnMap(const std::vector<std::string>& texts,
+                                                           const Mechanism& mechanism) {
+  std::vector<std::string> known = {"t_s"};
+  for (std::size_t k = 0; k < mechanism.motorCount(); ++k) known.push_back(motorColumn(mechanism, k, "tau"));
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals + 1 == text.size())
+      throw UsageError(fmt::format("--map {}: expected NAME=COLUMN, as in {}=tau1", shown(text), known[1]));
+    const std::string name = text.substr(0, equals);
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw UsageError(
+          fmt::format("--map {}: '{}' is no column of this mechanism's efforts, expected t_s or {} to {}{}",
+                      shown(text), shown(name), known[1], known.back(), didYouMean(name, known)));
+    out.emplace_back(name, text.substr(equals + 1));
+  }
+  return out;
+}
+
+/// A basic string of TOML.
+std::string tomlString(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+}  // namespace
+
+std::optional<MechanismScenario> openMechanism(const std::filesystem::path& file) {
+  if (file == "-") return std::nullopt;
+  const std::string text = scenarioText(file);
+  if (!isMechanism(text)) return std::nullopt;
+  return parseMechanism(text, file, partModelReader());
+}
+
+int inverseOfMechanism(const MechanismScenario& scenario, int samples, const std::string& out) {
+  return along(scenario, [&] {
+    const Mechanism& mechanism = *scenario.mechanism;
+    const MechanismAlong path(scenario);
+    std::vector<std::string> names = {"t_s"};
+    for (const char* quantity : {"q", "qdot", "qddot", "tau"})
+      for (std::size_t k = 0; k < mechanism.motorCount(); ++k) names.push_back(motorColumn(mechanism, k, quantity));
+    LoopWork work;
+    static_cast<void>(path.motion().inverseDynamics(0, work));
+    for (const LoopSolver::JointValue& joint : path.solver().joints(work)) names.push_back(joint.name);
+    std::vector<std::vector<double>> columns(names.size());
+    for (const double t : equallySpaced(scenario.trajectory->duration(), samples)) {
+      const MotorMotion motion = scenario.trajectory->at(t);
+      const Eigen::VectorXd efforts = path.motion().inverseDynamics(t, work);
+      std::size_t at = 0;
+      columns[at++].push_back(t);
+      for (const Eigen::VectorXd* each : {&motion.q, &motion.qdot, &motion.qddot, &efforts})
+        for (Eigen::Index k = 0; k < each->size(); ++k) columns[at++].push_back((*each)(k));
+      for (const LoopSolver::JointValue& joint : path.solver().joints(work)) columns[at++].push_back(joint.value);
+    }
+    writeOutput(out, csvText(names, columns));
+    return exit_passed;
+  });
+}
+
+int checkMechanism(const MechanismScenario& scenario) {
+  return along(scenario, [&] {
+    const MechanismAlong path(scenario);
+    LoopWork work;
+    for (const double t : equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples))
+      static_cast<void>(path.motion().inverseDynamics(t, work));
+    const auto tell = [](const std::string& text) { writeOutput("-", withoutControls(text)); };
+    for (const std::string& text : scenario.read.warnings) tell(text + "\n");
+    for (const std::string& text : scenario.read.assumptions) tell(text + "\n");
+    if (!path.freedoms().idle.empty())
+      tell(fmt::format("held at rest, since a spin about their own line has no effect: {}\n",
+                       fmt::join(path.freedoms().idle, ", ")));
+    tell(fmt::format("{}: {} freedom{} and as many motors; the scenario and its motion are valid; {} warning{}\n",
+                     scenario.file.string(), path.freedoms().freedoms, path.freedoms().freedoms == 1 ? "" : "s",
+                     scenario.read.warnings.size(), scenario.read.warnings.size() == 1 ? "" : "s"));
+    return exit_passed;
+  });
+}
+
+ValidationResult judgeMechanism(const MechanismScenario& scenario, const std::string& torques,
+                                const std::vector<std::string>& map, const ExternalSolverOptions& solver,
+                                const MechanismOptions& options) {
+  return along(scenario, [&] {
+    if (!solver.command.empty()) return validateExternalSolver(scenario, solver, options);
+    MechanismSubject subject;
+    if (!torques.empty()) {
+      subject.given = std::make_shared<const GivenEfforts>(readMotorEfforts(
+          torques, *scenario.mechanism, scenario.trajectory->duration(), columnMap(map, *scenario.mechanism)));
+      subject.about = {subject.given->name, Formulation::external, CalledBy::torques};
+    }
+    return validateMechanism(scenario, subject, options);
+  });
+}
+
+int initFromModel(const std::string& file, const std::string& model) {
+  const ModelReader reader = partModelReader();
+  if (reader == nullptr) throw UsageError("--model: this build has no reader of models; ./dev build adds it");
+  const ModelRead read = reader(model, {});
+  const Mechanism mechanism(read.machine);
+  const LoopSolver solver(mechanism);
+  const loops::VectorXd start = solver.motorCoordinates(solver.assembled());
+  // A tenth of a turn, or of the machine's size, or as much less as the loops can follow.
+  double share = 1;
+  const auto amplitude = [&](std::size_t k) {
+    return share * (mechanism.motor(k).slides() ? 0.05 * mechanism.length() : 0.2);
+  };
+  const auto motionOf = [&] {
+    std::vector<FourierSeries> motors;
+    for (std::size_t k = 0; k < mechanism.motorCount(); ++k)
+      motors.push_back({start(static_cast<Eigen::Index>(k)), {amplitude(k)}, {}});
+    return makeFourier(2, 2, motors);
+  };
+  for (int tries = 0; tries < 12; ++tries, share /= 2) {
+    try {
+      const auto motion = motionOf();
+      static_cast<void>(LoopMotion(solver, *motion));
+      break;
+    } catch (const LoopError&) {
+      if (tries == 11) throw;
+    }
+  }
+  const std::filesystem::path folder = file == "-" ? "." : std::filesystem::absolute(file).parent_path();
+  std::error_code failed;
+  std::filesystem::path path = std::filesystem::relative(std::filesystem::absolute(model), folder, failed);
+  if (failed || path.empty()) path = std::filesystem::absolute(model);
+  const std::string stem =
+      file == "-" ? std::filesystem::path(model).stem().string() : std::filesystem::path(file).stem().string();
+  std::string text =
+      fmt::format("name = \"{}\"\n\n[mechanism]\nfile = {}\nmotors = [", stem, tomlString(path.string()));
+  for (std::size_t k = 0; k < mechanism.motorCount(); ++k)
+    text += fmt::format("{}{}", k == 0 ? "" : ", ", tomlString(mechanism.motor(k).name));
+  text += fmt::format(
+      "]\noutput = {}\n\n[trajectory]\nkind = \"fourier\"  # q(t) = offset + sum of sin_j sin(2 pi j t / period) and "
+      "cos_j cos(2 pi j t / period)\nduration = 2.0\nperiod = 2.0\nmotors = [\n",
+      tomlString(mechanism.bodies()[mechanism.output()].name));
+  for (std::size_t k = 0; k < mechanism.motorCount(); ++k)
+    text +=
+        fmt::format("  {{ offset = {}, sin = [{:.3g}], cos = [] }},  # {}, {}\n", start(static_cast<Eigen::Index>(k)),
+                    amplitude(k), withoutControls(mechanism.motor(k).name), mechanism.motor(k).slides() ? "m" : "rad");
+  writeOutput(file, text + "]\n");
+  if (file != "-") say("wrote {}; next: ursula check {}\n", file, shellWord(file));
+  return exit_passed;
+}
+
+}  // namespace ursula
