@@ -18,16 +18,16 @@ SimbodyLoop::SimbodyLoop(SimbodyLoop&&) noexcept = default;
 SimbodyLoop& SimbodyLoop::operator=(SimbodyLoop&&) noexcept = default;
 
 int SimbodyLoop::Impl::indexOf(int joint, int leg) const {
-  const Mechanism::Place place = mechanism.place(joint, leg);
+  const LoopParts::Place place = mechanism.place(joint, leg);
   return place.body.getFirstUIndex(state) + place.coordinate;
 }
 
 void SimbodyLoop::Impl::setLeg(int leg, const std::array<double, 3>& q) {
   for (int joint = 0; joint < 3; ++joint) {
-    const Mechanism::Place place = mechanism.place(joint, leg);
+    const LoopParts::Place place = mechanism.place(joint, leg);
     place.body.setOneQ(state, place.coordinate, q[static_cast<std::size_t>(joint)]);
   }
-  for (const Mechanism::Rotor& rotor : mechanism.rotors)
+  for (const LoopParts::Rotor& rotor : mechanism.rotors)
     if (rotor.leg == leg) rotor.wheel.setOneQ(state, 0, q[static_cast<std::size_t>(rotor.joint)]);
 }
 
@@ -137,7 +137,7 @@ void SimbodyLoop::place(const Motion<double>& motion, const JointMotion& joint_m
       loop.state.updU()[loop.indexOf(joint, i)] = joint_motion.q_dot.of(coordinate)(i);
       loop.u_dot[loop.indexOf(joint, i)] = joint_motion.q_ddot.of(coordinate)(i);
     }
-  for (const Mechanism::Rotor& rotor : loop.mechanism.rotors) {
+  for (const LoopParts::Rotor& rotor : loop.mechanism.rotors) {
     loop.state.updU()[loop.indexOf(rotor)] = loop.state.getU()[loop.indexOf(rotor.joint, rotor.leg)];
     loop.u_dot[loop.indexOf(rotor)] = loop.u_dot[loop.indexOf(rotor.joint, rotor.leg)];
   }
@@ -150,7 +150,7 @@ JointMotion SimbodyLoop::joints() const {
   for (int i = 0; i < loop.legCount(); ++i)
     for (int joint = 0; joint < 3; ++joint) {
       const Coordinate coordinate = rowOf(loop.parameters.leg(i).kind).coordinates[static_cast<std::size_t>(joint)];
-      const Mechanism::Place place = loop.mechanism.place(joint, i);
+      const LoopParts::Place place = loop.mechanism.place(joint, i);
       out.q.of(coordinate)(i) = place.body.getOneQ(loop.state, place.coordinate);
       out.q_dot.of(coordinate)(i) = loop.mechanism.rate(loop.state, joint, i);
       out.q_ddot.of(coordinate)(i) = loop.u_dot[loop.indexOf(joint, i)];
@@ -176,7 +176,7 @@ void SimbodyLoop::coordinates(const Motion<double>& motion, const JointMotion& j
       out.u[at] = joint_motion.q_dot.of(coordinate)(leg);
       out.u_dot[at] = joint_motion.q_ddot.of(coordinate)(leg);
     }
-  for (const Mechanism::Rotor& rotor : loop.mechanism.rotors) {
+  for (const LoopParts::Rotor& rotor : loop.mechanism.rotors) {
     const auto at = static_cast<std::size_t>(loop.indexOf(rotor)),
                of = static_cast<std::size_t>(loop.indexOf(rotor.joint, rotor.leg));
     out.q[static_cast<std::size_t>(rotor.wheel.getFirstQIndex(loop.state))] = out.q[of];
@@ -244,7 +244,7 @@ void SimbodyLoop::openTree(const TreeCoordinates& at, OpenTree& out) {
     leg.P = -G.block<3, 6>(3 * i, platform);
     leg.force = force.segment<3>(first);
   }
-  for (const Mechanism::Rotor& rotor : loop.mechanism.rotors)
+  for (const LoopParts::Rotor& rotor : loop.mechanism.rotors)
     out.legs[static_cast<std::size_t>(rotor.leg)].force(rotor.joint) += force(loop.indexOf(rotor));
   out.force = force.segment<6>(platform);
 }

@@ -14,7 +14,7 @@ namespace {
 /// Supplies torques, Coulomb friction and load to Simbody.
 class DriverForce : public SimTK::Force::Custom::Implementation {
  public:
-  DriverForce(Mechanism mechanism, std::shared_ptr<const AppliedForces> applied)
+  DriverForce(LoopParts mechanism, std::shared_ptr<const AppliedForces> applied)
       : mechanism_(std::move(mechanism)), applied_(std::move(applied)) {}
 
   void calcForce(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces,
@@ -33,7 +33,7 @@ class DriverForce : public SimTK::Force::Custom::Implementation {
 
  private:
   void apply(const SimTK::State& state, int joint, int leg, double force, SimTK::Vector& mobility_forces) const {
-    const Mechanism::Place place = mechanism_.place(joint, leg);
+    const LoopParts::Place place = mechanism_.place(joint, leg);
     place.body.applyOneMobilityForce(state, place.coordinate, force, mobility_forces);
   }
 
@@ -46,7 +46,7 @@ class DriverForce : public SimTK::Force::Custom::Implementation {
       }
   }
 
-  Mechanism mechanism_;
+  LoopParts mechanism_;
   std::shared_ptr<const AppliedForces> applied_;
 };
 
@@ -69,14 +69,14 @@ SimTK::MassProperties massProperties(double mass, const Vector3d& center, const 
                   mass, center.norm(), about_center.diagonal().maxCoeff(), mass * center.squaredNorm()));
 }
 
-Mechanism::Place Mechanism::place(int joint, int leg) const {
+LoopParts::Place LoopParts::place(int joint, int leg) const {
   const auto i = static_cast<std::size_t>(leg);
   const int first = joints_of_proximal[i];
   if (joint < first) return {proximal[i], joint};
   return {distal[i], joint - first};
 }
 
-double Mechanism::rate(const SimTK::State& state, int joint, int leg) const {
+double LoopParts::rate(const SimTK::State& state, int joint, int leg) const {
   const Place here = place(joint, leg);
   return here.body.getOneU(state, here.coordinate);
 }
@@ -86,7 +86,7 @@ double coulombForce(const Leg& leg, int joint, double rate) {
   return -leg.coulomb.on(coordinate) * std::tanh(rate / leg.coulomb.speedOf(coordinate));
 }
 
-SimTK::SpatialVec loadOnPlatform(const Load& load, const Mechanism& mechanism, const SimTK::State& state) {
+SimTK::SpatialVec loadOnPlatform(const Load& load, const LoopParts& mechanism, const SimTK::State& state) {
   const SimTK::Rotation& R = mechanism.platform.getBodyRotation(state);
   const auto wrench = load.at(state.getTime());
   const bool in_platform = load.frame == Load::Frame::platform;
@@ -133,7 +133,7 @@ void SimbodyLoop::Impl::addRotors() {
     if (inertia == 0) continue;
     const SimTK::MassProperties properties(inertia, SimTK::Vec3(0), SimTK::Inertia(inertia));  // any mass is valid
     const SimTK::MobilizedBody::Pin wheel(matter.Ground(), SimTK::Body::Rigid(properties));
-    const Mechanism::Place place = mechanism.place(motor.joint, motor.leg);
+    const LoopParts::Place place = mechanism.place(motor.joint, motor.leg);
     SimTK::Vector alike(3, 0.0);
     alike[0] = 1;
     alike[1] = -1;
@@ -152,7 +152,7 @@ void SimbodyLoop::Impl::addForces(std::shared_ptr<const Load> load) {
   for (int leg = 0; leg < legCount(); ++leg) {
     const Leg& from = parameters.leg(leg);
     for (int joint = 0; joint < 3; ++joint) {
-      const Mechanism::Place place = mechanism.place(joint, leg);
+      const LoopParts::Place place = mechanism.place(joint, leg);
       const Coordinate coordinate = rowOf(from.kind).coordinates[static_cast<std::size_t>(joint)];
       addDamper(forces, place.body, place.coordinate, from.friction.on(coordinate));
     }

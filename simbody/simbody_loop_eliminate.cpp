@@ -29,7 +29,7 @@ struct LegClosure {
 
 Vector3d centripetal(const Vector3d& omega, const Vector3d& arm) { return omega.cross(omega.cross(arm)); }
 
-LegClosure closureOf(const Mechanism& mechanism, const SimTK::State& state, std::size_t i, const Leg& leg,
+LegClosure closureOf(const LoopParts& mechanism, const SimTK::State& state, std::size_t i, const Leg& leg,
                      const LegChain& chain, const SimTK::Vector_<SimTK::SpatialVec>& at_rest) {
   const SimTK::MobilizedBody &first = mechanism.proximal[i], &second = mechanism.distal[i];
   const Vector3d A = toEigen(first.getInboardFrame(state).p()), R = toEigen(second.getBodyOriginLocation(state));
@@ -78,7 +78,7 @@ void SimbodyLoop::Impl::eliminate(const Vector6d& torques) {
       c[indexOf(joint, i)] = constant(joint);
     }
   }
-  for (const Mechanism::Rotor& rotor : mechanism.rotors) {
+  for (const LoopParts::Rotor& rotor : mechanism.rotors) {
     N.row(indexOf(rotor)) = N.row(indexOf(rotor.joint, rotor.leg));
     c[indexOf(rotor)] = c[indexOf(rotor.joint, rotor.leg)];
   }
@@ -141,7 +141,7 @@ Reactions SimbodyLoop::reactions() const {
     const SimTK::MobilizedBody &first = loop.mechanism.proximal[index], &second = loop.mechanism.distal[index];
     Vector3d of_joints;
     for (int joint = 0; joint < 3; ++joint) of_joints(joint) = residual[loop.indexOf(joint, i)];
-    for (const Mechanism::Rotor& rotor : loop.mechanism.rotors)
+    for (const LoopParts::Rotor& rotor : loop.mechanism.rotors)
       if (rotor.leg == i) of_joints(rotor.joint) += residual[loop.indexOf(rotor)];
     const Vector3d on_leg = loop.leg_jacobians[index].transpose().partialPivLu().solve(of_joints);
     const Vector3d to_B = loop.parameters.leg(i).distal.length * toEigen(SimTK::Vec3(second.getBodyRotation(open).z()));

@@ -1,9 +1,6 @@
 #pragma once
 
-// Internals of SimbodyLoop; only simbody_loop*.cpp include it. Never write `using namespace SimTK` here, because it
-// breaks Eigen's comparisons.
-
-#include <Simbody.h>
+// Internals of SimbodyLoop; only simbody_loop*.cpp include it.
 
 #include <array>
 #include <optional>
@@ -13,35 +10,9 @@
 
 #include "model/legs/leg_chain.h"
 #include "simbody/simbody_loop.h"
+#include "simbody/simtk_internal.h"
 
 namespace ursula {
-
-inline SimTK::Vec3 toSimTK(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-inline Vector3d toEigen(const SimTK::Vec3& v) { return {v[0], v[1], v[2]}; }
-
-inline SimTK::Rotation toSimTK(const Matrix3d& R) {
-  // trustMe: re-orthogonalising would change the given pose.
-  return SimTK::Rotation(SimTK::Mat33(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)),
-                         true);
-}
-
-inline Matrix3d toEigen(const SimTK::Rotation& R) {
-  Matrix3d out;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) out(i, j) = R[i][j];
-  return out;
-}
-
-/// Returns [ω; v] or [n; f].
-inline Vector6d toEigen(const SimTK::SpatialVec& v) {
-  Vector6d out;
-  out << toEigen(v[0]), toEigen(v[1]);
-  return out;
-}
-
-inline Eigen::Map<const Eigen::VectorXd> mapped(const SimTK::Vector& v) {
-  return {v.size() > 0 ? &v[0] : nullptr, v.size()};
-}
 
 /// Forces that Simbody does not compute itself: torques, Coulomb friction, the load on the platform.
 struct AppliedForces {
@@ -54,7 +25,7 @@ struct AppliedForces {
 };
 
 /// Handles on the bodies and on the balls that close the loops.
-struct Mechanism {
+struct LoopParts {
   std::vector<SimTK::MobilizedBody> proximal, distal;
   std::vector<int> joints_of_proximal;
   SimTK::MobilizedBody platform;
@@ -95,7 +66,7 @@ Matrix3d legJacobian(const LegChain& chain, const SimTK::State& state, const Sim
 SimTK::MassProperties massProperties(double mass, const Vector3d& center, const Matrix3d& about_center);
 
 /// Returns [moment about P; force] of the load in B for the platform's pose in `state`, realized to Position.
-SimTK::SpatialVec loadOnPlatform(const Load& load, const Mechanism& mechanism, const SimTK::State& state);
+SimTK::SpatialVec loadOnPlatform(const Load& load, const LoopParts& mechanism, const SimTK::State& state);
 
 /// Kept between calls to avoid allocation.
 struct OpenTreeScratch {
@@ -110,7 +81,7 @@ struct SimbodyLoop::Impl {
   SimTK::MultibodySystem system;
   SimTK::SimbodyMatterSubsystem matter;
   SimTK::GeneralForceSubsystem forces;
-  Mechanism mechanism;
+  LoopParts mechanism;
   std::shared_ptr<AppliedForces> applied = std::make_shared<AppliedForces>();
   SimTK::State state;
   SimTK::State open;    ///< state without the balls, as derivative() needs none of their errors; six balls only
@@ -126,7 +97,7 @@ struct SimbodyLoop::Impl {
   const SimTK::State& differentiated() const { return topology == Topology::ball_per_leg ? open : state; }
   /// Returns the index in u of a leg's joint.
   int indexOf(int joint, int leg) const;
-  int indexOf(const Mechanism::Rotor& rotor) const { return rotor.wheel.getFirstUIndex(state); }
+  int indexOf(const LoopParts::Rotor& rotor) const { return rotor.wheel.getFirstUIndex(state); }
   void setLeg(int leg, const std::array<double, 3>& q);
   /// Returns the joint coordinates of one leg for the platform's pose. Throws std::domain_error if the leg cannot
   /// reach.
