@@ -1,0 +1,161 @@
+// Mechanisms of model files in Simbody, with two trees each, against reference vectors that were made without either.
+
+#include "simbody/simbody_mechanism.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "base/csv.h"
+#include "parts/exchange/import.h"
+
+namespace ursula {
+namespace {
+
+using Tree = SimbodyMechanism::Tree;
+
+/// Rounding in some 50 coordinates, times a condition number below 1e2 of these machines.
+constexpr double room = 1e-12;
+
+MechanismParameters parametersOf(const std::string& name) {
+  return exchange::readModel(std::string(URSULA_VECTORS) + "/loops/" + name + ".xml");
+}
+
+/// One row of NAME.csv.
+struct LoopRow {
+  MotorMotion motion;
+  Eigen::VectorXd efforts;
+};
+
+std::vector<LoopRow> rowsOf(const std::string& name, std::size_t motors) {
+  const CsvTable table = readCsv(std::string(URSULA_VECTORS) + "/loops/" + name + ".csv");
+  std::vector<LoopRow> out(table.rows());
+  for (std::size_t row = 0; row < out.size(); ++row) {
+    const auto read = [&](const char* what, const char* unit) {
+      Eigen::VectorXd numbers(static_cast<Eigen::Index>(motors));
+      for (std::size_t k = 0; k < motors; ++k)
+        numbers(static_cast<Eigen::Index>(k)) = table.at(what + std::to_string(k + 1) + unit)[row];
+      return numbers;
+    };
+    out[row].motion = {table.at("t_s")[row], read("q_", "_rad"), read("qdot_", "_rad_s"), read("qddot_", "_rad_s2")};
+    out[row].efforts = read("tau_", "_Nm");
+  }
+  return out;
+}
+
+double largestEffort(const std::vector<LoopRow>& rows) {
+  double out = 0;
+  for (const LoopRow& row : rows) out = std::max(out, row.efforts.cwiseAbs().maxCoeff());
+  return out;
+}
+
+double effortError(const Mechanism& mechanism, Tree tree, const std::vector<LoopRow>& rows) {
+  SimbodyMechanism loop(mechanism, tree);
+  double worst = 0;
+  for (const LoopRow& row : rows) {
+    loop.place(row.motion);
+    worst = std::max(worst, (loop.inverseDynamics() - row.efforts).cwiseAbs().maxCoeff());
+  }
+  return worst / largestEffort(rows);
+}
+
+class LoopOfFile : public testing::TestWithParam<std::string> {
+ protected:
+  Mechanism mechanism_{parametersOf(GetParam())};
+  std::vector<LoopRow> rows_ = rowsOf(GetParam(), mechanism_.motorCount());
+};
+
+constexpr Tree trees[] = {Tree::other, Tree::of_file};
+
+TEST_P(LoopOfFile, hasTheEffortsOfTheVectors) {
+  for (const Tree tree : trees) {
+    const double error = effortError(mechanism_, tree, rows_);
+    std::cout << GetParam() << ": " << SimbodyMechanism(mechanism_, tree).tree() << ", efforts within " << error
+              << " of the largest\n";
+    EXPECT_LT(error, room);
+  }
+}
+
+TEST_P(LoopOfFile, acceleratesAsCommandedUnderItsEfforts) {
+  for (const Tree tree : trees) {
+    SimbodyMechanism loop(mechanism_, tree);
+    double worst = 0;
+    for (const LoopRow& row : rows_) {
+      loop.place(row.motion);
+      const Eigen::VectorXd efforts = loop.inverseDynamics();
+      const double scale = row.motion.qddot.norm();
+      worst = std::max(worst, (loop.accelerations(efforts) - row.motion.qddot).norm() / scale);
+      worst = std::max(worst, (loop.accelerationsByElimination(efforts) - row.motion.qddot).norm() / scale);
+    }
+    std::cout << GetParam() << (loop.usesSimbodysOwn() ? ", Simbody's own: " : ", eliminated: ") << worst << '\n';
+    EXPECT_LT(worst, 10 * room);  // there and back
+  }
+}
+
+TEST_P(LoopOfFile, movesAllBodiesAlikeInBothTrees) {
+  SimbodyMechanism one(mechanism_, Tree::other), two(mechanism_, Tree::of_file);
+  for (const LoopRow& row : rows_) {
+    one.place(row.motion);
+    two.place(row.motion);
+    EXPECT_LT(one.closure().position, 1e-14 * mechanism_.length());
+    EXPECT_LT(one.closure().velocity, 1e-13);
+    const auto a = one.bodies(), b = two.bodies();
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      EXPECT_LT((a[i].displacement.matrix() - b[i].displacement.matrix()).norm(), room) << mechanism_.bodies()[i].name;
+      EXPECT_LT((a[i].twist - b[i].twist).norm(), 10 * room) << mechanism_.bodies()[i].name;
+      EXPECT_LT((a[i].twist_rate - b[i].twist_rate).norm(), 100 * room) << mechanism_.bodies()[i].name;
+    }
+    const auto energy = one.energy(), other = two.energy();
+    EXPECT_NEAR(energy.kinetic, other.kinetic, room);
+    EXPECT_NEAR(energy.potential, other.potential, 10 * room);
+  }
+}
+
+TEST_P(LoopOfFile, cutsOtherJointsThanTheFile) {
+  const auto own = SimbodyMechanism(mechanism_, Tree::other).cutJoints();
+  const auto of_file = SimbodyMechanism(mechanism_, Tree::of_file).cutJoints();
+  EXPECT_NE(own, of_file);
+  for (const std::size_t j : of_file) EXPECT_TRUE(mechanism_.joints()[j].closure);
+  for (const std::size_t j : own) EXPECT_FALSE(mechanism_.joints()[j].closure);
+}
+
+TEST_P(LoopOfFile, seesAMassThatIsWrongByOneInTenThousand) {
+  MechanismParameters wrong = mechanism_.parameters();
+  const auto heaviest = std::max_element(wrong.bodies.begin(), wrong.bodies.end(),
+                                         [](const auto& a, const auto& b) { return a.mass < b.mass; });
+  heaviest->mass *= 1 + 1e-4;
+  EXPECT_GT(effortError(Mechanism(wrong), Tree::other, rows_), 1e4 * room);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, LoopOfFile, testing::Values("fourbar", "planar3rrr", "ankle", "delta"),
+                         [](const auto& each) { return each.param; });
+
+/// Hinges close a planar loop with three equations too many, and change nothing.
+TEST(LoopsOfFiles, areTheSameIfHingesCloseAPlanarLoop) {
+  for (const char* name : {"fourbar", "planar3rrr"}) {
+    MechanismParameters machine = parametersOf(name);
+    const std::vector<LoopRow> rows = rowsOf(name, machine.motors.size());
+    for (MechanismJoint& joint : machine.joints)
+      if (joint.closure) {
+        joint.kind = JointKind::revolute;
+        joint.axis[0] = machine.joints[0].axis[0];
+      }
+    for (const Tree tree : trees) {
+      EXPECT_LT(effortError(Mechanism(machine), tree, rows), room);
+      SimbodyMechanism loop(Mechanism(machine), tree);
+      EXPECT_TRUE(loop.usesSimbodysOwn());
+      for (const LoopRow& row : rows) {
+        loop.place(row.motion);
+        EXPECT_LT((loop.accelerations(row.efforts) - row.motion.qddot).norm(), 10 * room * row.motion.qddot.norm());
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ursula
