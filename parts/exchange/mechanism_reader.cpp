@@ -11,6 +11,7 @@
 #include "parts/exchange/leave_out.h"
 #include "parts/exchange/mechanism_tree.h"
 #include "parts/exchange/model_text.h"
+#include "parts/exchange/read/urdf_parts.h"
 #include "parts/exchange/recognise/chains.h"
 
 namespace ursula::exchange {
@@ -55,19 +56,38 @@ void takeMotors(ModelGraph& graph, const std::vector<std::string>& names) {
   }
 }
 
+/// Returns the massless bodies through which alone `body` hangs on what stands still, as a floating base in MJCF often
+/// does by three slides and a ball.
+std::vector<std::size_t> hangers(const ModelGraph& graph, std::size_t body) {
+  std::vector<std::size_t> out;
+  while (!graph.bodies[body].fixed) {
+    const GraphJoint* up = nullptr;
+    std::size_t count = 0;
+    for (const GraphJoint& joint : graph.joints) {
+      count += joint.parent == body || joint.child == body ? 1 : 0;
+      if (joint.child == body && !joint.closure) up = &joint;
+    }
+    const GraphBody& here = graph.bodies[body];
+    const bool is_frame = here.mass == 0 && here.inertia.isZero(0) && count == 2;
+    if (up == nullptr || out.size() > graph.bodies.size() || (!out.empty() && !is_frame)) return {};
+    out.push_back(body);
+    body = up->parent;
+  }
+  return out;
+}
+
 /// Lets a body stand still. URDF's root, which stands still for want of a word in the file, is then set free.
 void holdBase(ModelGraph& graph, const std::string& base) {
   if (base.empty()) return;
   const std::size_t body = chosenBody(graph, base, "mechanism.base");
-  if (graph.format == ModelFormat::urdf && !graph.bodies[body].fixed)
-    for (GraphBody& each : graph.bodies)
-      if (each.fixed && each.name != "world") each.fixed = false;
-  auto& said = graph.assumptions;
-  if (graph.format == ModelFormat::urdf)
-    said.erase(
-        std::remove_if(said.begin(), said.end(),
-                       [](const Assumption& each) { return each.what.rfind("The root link stands still", 0) == 0; }),
-        said.end());
+  if (graph.format == ModelFormat::urdf) {
+    for (GraphBody& each : graph.bodies) each.fixed = each.fixed && (each.name == "world" || each.name == base);
+    auto& said = graph.assumptions;
+    said.erase(std::remove_if(said.begin(), said.end(),
+                              [](const Assumption& each) { return each.what.rfind(root_stands_still, 0) == 0; }),
+               said.end());
+  }
+  for (const std::size_t each : hangers(graph, body)) graph.bodies[each].fixed = true;
   graph.bodies[body].fixed = true;
 }
 

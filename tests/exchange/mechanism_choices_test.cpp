@@ -65,6 +65,24 @@ TEST(ReadFloating, aMachineNeedsABase) {
   EXPECT_THAT(together(held.assumptions), HasSubstr("Both of its bodies stand still"));
 }
 
+/// A floating base by slides and a ball, as files of legged machines have it.
+TEST(ReadFloating, slidesAndABallHoldNoBase) {
+  const std::string inertial = "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>";
+  const std::string text =
+      "<mujoco><worldbody><body name='trunk'><joint name='x' type='slide'/><joint name='y' type='slide'/><joint "
+      "name='z' type='slide'/><joint name='o' type='ball'/>" +
+      inertial + "<body name='leg'><joint name='j'/>" + inertial +
+      "</body></body></worldbody><actuator><motor joint='j'/></actuator></mujoco>";
+  EXPECT_EQ(mechanismOf("slides.xml", text).machine.joints.size(), 5U);
+  MechanismChoices choices;
+  choices.base = "trunk";
+  const ModelRead held = mechanismOf("slides.xml", text, choices);
+  ASSERT_EQ(held.machine.joints.size(), 1U);
+  EXPECT_EQ(held.machine.joints[0].name, "j");
+  choices.base = "leg";
+  EXPECT_EQ(mechanismOf("slides.xml", text, choices).machine.joints.size(), 5U) << "the trunk has a mass";
+}
+
 TEST(ReadChoices, anotherBaseOfUrdfSetsItsRootFree) {
   const std::string inertial =
       "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>";

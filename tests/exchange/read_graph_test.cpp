@@ -183,6 +183,26 @@ TEST(ReadUrdf, robotYamlNamesPairsAndMotors) {
   std::ofstream(folder / "robot.yaml") << "closed_loop: [[mot1, none]]\n";
   EXPECT_THROW(readModel(folder / "r.urdf"), ImportError);
 
+  std::ofstream(folder / "robot.yaml")
+      << "joint_name: [free1, mot1]\njoint_type: ['SPHERICAL', 'UJOINT_ZY']\nother: 1\n";
+  const ModelGraph other = readModel(folder / "r.urdf");
+  EXPECT_EQ(other.joints.at(1).kind, JointKind::ball);
+  EXPECT_EQ(other.joints.at(0).kind, JointKind::universal);
+  EXPECT_EQ(other.joints.at(0).axis[0], Vector3d::UnitZ());
+  EXPECT_EQ(other.joints.at(0).axis[1], Vector3d::UnitY());
+  EXPECT_EQ(assumed(other, "as robot.yaml says").first, 2);
+  EXPECT_EQ(assumed(other, "did you mean").first, 0);
+  EXPECT_EQ(assumed(other, "Nothing is known of other").first, 1);
+  std::ofstream(folder / "robot.yaml") << "joint_name: [free1]\njoint_type: [FIXED]\n";
+  EXPECT_EQ(readModel(folder / "r.urdf").joints.at(1).kind, JointKind::fixed);
+  std::ofstream(folder / "robot.yaml") << "joint_name: [fre1]\njoint_type: [FIXED]\n";
+  EXPECT_EQ(assumed(readModel(folder / "r.urdf"), "did you mean 'free1'").first, 1);
+  for (const char* wrong : {"joint_name: [free1]\njoint_type: [PLANAR]\n", "joint_name: [free1]\njoint_type: []\n",
+                            "joint_name: [free1]\njoint_type: [UJOINT_XX]\n"}) {
+    std::ofstream(folder / "robot.yaml") << wrong;
+    EXPECT_THROW(readModel(folder / "r.urdf"), ImportError) << wrong;
+  }
+
   std::ofstream(folder / "robot.yaml") << "name_mot: [free1, mot1]\n";
   EXPECT_THAT(readModel(folder / "r.urdf").motors, testing::ElementsAre("free1", "mot1"));
 }

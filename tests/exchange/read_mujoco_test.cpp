@@ -192,6 +192,38 @@ constexpr const char* springs =
 INSTANTIATE_TEST_SUITE_P(, ReadMujoco,
                          testing::Values(orientations, shapes, classes, bounds, raised, urdf, closures, springs));
 
+void expectBodies(const MechanismParameters& machine, const mjModel& model, const mjData& data) {
+  for (const char* name : {"f", "a", "b"}) {
+    const int id = mj_name2id(&model, mjOBJ_BODY, name);
+    const auto body = std::find_if(machine.bodies.begin(), machine.bodies.end(),
+                                   [&](const MechanismBody& each) { return each.name == name; });
+    ASSERT_NE(body, machine.bodies.end());
+    SCOPED_TRACE(name);
+    EXPECT_LE((body->frame.translation() - Map3(data.xpos + 3 * id)).norm(), tolerance);
+    EXPECT_LE((body->frame.linear() - MapRows(data.xmat + 9 * id)).norm(), tolerance);
+    EXPECT_LE((body->center_of_mass - Map3(data.xipos + 3 * id)).norm(), tolerance);
+    const Matrix3d axes = MapRows(data.ximat + 9 * id);
+    const Matrix3d inertia = axes * Map3(model.body_inertia + 3 * id).asDiagonal() * axes.transpose();
+    EXPECT_LE((body->inertia - inertia).norm(), inertia_tolerance * inertia.norm());
+  }
+}
+
+void expectJoints(const MechanismParameters& machine, const mjModel& model, const mjData& data) {
+  for (const MechanismJoint& joint : machine.joints) {
+    SCOPED_TRACE(joint.name);
+    const int id = mj_name2id(&model, mjOBJ_JOINT, joint.name.c_str());
+    if (joint.closure) {
+      EXPECT_LE((joint.centre - joint.centre_of_child - Map3(data.efc_pos)).norm(), tolerance);
+    } else if (joint.kind == JointKind::revolute || joint.kind == JointKind::prismatic) {
+      EXPECT_EQ(joint.position, data.qpos[model.jnt_qposadr[id]]);
+      EXPECT_LE((joint.axis[0] - Map3(data.xaxis + 3 * id)).norm(), tolerance);
+      EXPECT_LE((joint.centre - Map3(data.xanchor + 3 * id)).cross(joint.axis[0]).norm(), tolerance);
+    } else {
+      EXPECT_LE((joint.centre - Map3(data.xanchor + 3 * id)).norm(), tolerance);
+    }
+  }
+}
+
 /// Every kind of joint at a keyframe that a weld needs.
 TEST(ReadMujocoKeyframe, agreesOnBodies) {
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "read_mujoco_keyframe.xml";
@@ -209,32 +241,8 @@ TEST(ReadMujocoKeyframe, agreesOnBodies) {
   mj_resetDataKeyframe(model.get(), data.get(), 0);
   mj_forward(model.get(), data.get());
   const MechanismParameters machine = readMechanismModel(file, {}).machine;
-  for (const char* name : {"f", "a", "b"}) {
-    const int id = mj_name2id(model.get(), mjOBJ_BODY, name);
-    const auto body = std::find_if(machine.bodies.begin(), machine.bodies.end(),
-                                   [&](const MechanismBody& each) { return each.name == name; });
-    ASSERT_NE(body, machine.bodies.end());
-    SCOPED_TRACE(name);
-    EXPECT_LE((body->frame.translation() - Map3(data->xpos + 3 * id)).norm(), tolerance);
-    EXPECT_LE((body->frame.linear() - MapRows(data->xmat + 9 * id)).norm(), tolerance);
-    EXPECT_LE((body->center_of_mass - Map3(data->xipos + 3 * id)).norm(), tolerance);
-    const Matrix3d axes = MapRows(data->ximat + 9 * id);
-    const Matrix3d inertia = axes * Map3(model->body_inertia + 3 * id).asDiagonal() * axes.transpose();
-    EXPECT_LE((body->inertia - inertia).norm(), inertia_tolerance * inertia.norm());
-  }
-  for (const MechanismJoint& joint : machine.joints) {
-    SCOPED_TRACE(joint.name);
-    const int id = mj_name2id(model.get(), mjOBJ_JOINT, joint.name.c_str());
-    if (joint.closure) {
-      EXPECT_LE((joint.centre - joint.centre_of_child - Map3(data->efc_pos)).norm(), tolerance);
-    } else if (joint.kind == JointKind::revolute || joint.kind == JointKind::prismatic) {
-      EXPECT_EQ(joint.position, data->qpos[model->jnt_qposadr[id]]);
-      EXPECT_LE((joint.axis[0] - Map3(data->xaxis + 3 * id)).norm(), tolerance);
-      EXPECT_LE((joint.centre - Map3(data->xanchor + 3 * id)).cross(joint.axis[0]).norm(), tolerance);
-    } else {
-      EXPECT_LE((joint.centre - Map3(data->xanchor + 3 * id)).norm(), tolerance);
-    }
-  }
+  expectBodies(machine, *model, *data);
+  expectJoints(machine, *model, *data);
 }
 
 }  // namespace

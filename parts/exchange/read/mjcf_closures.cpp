@@ -109,6 +109,7 @@ void readActuator(const Element& element, const MjcfDefaults& defaults, const Mj
       refuse(element, fmt::format("{} {} of an actuator, which is not read; expected it at the joint", more, value));
   const std::string gear = get("gear");
   const double ratio = gear.empty() ? 1 : numbersOf(element, gear, 0, "gear").at(0);
+  if (freedomsOf(joint.kind) != 1) return;  // a direction, for which a later refusal has the words
   if (ratio == 0) refuse(element, "a gear of zero, expected another");
   if (ratio != 1)
     graph.assumptions.push_back(

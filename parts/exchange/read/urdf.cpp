@@ -124,7 +124,7 @@ class UrdfReader {
     graph_.bodies[order[0]].fixed = true;
     if (graph_.bodies[order[0]].name != "world")
       graph_.assumptions.push_back(
-          {"The root link stands still: the file does not say what does", graph_.bodies[order[0]].name});
+          {fmt::format("{}: the file does not say what does", root_stands_still), graph_.bodies[order[0]].name});
     for (std::size_t k = 0; k < order.size(); ++k)
       for (const std::size_t j : children[order[k]]) {
         graph_.bodies[ends_[j].second].frame = graph_.bodies[order[k]].frame * originOf(*elements_[j]);

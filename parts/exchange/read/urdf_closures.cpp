@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -16,6 +17,8 @@ const std::map<std::string, JointKind> kinds_of_closure = {{"ball", JointKind::b
                                                            {"revolute", JointKind::revolute},
                                                            {"continuous", JointKind::revolute},
                                                            {"prismatic", JointKind::prismatic}};
+
+const std::set<std::string> known_in_yaml = wordsOf("name closed_loop type name_mot joint_name joint_type");
 
 class Closer {
  public:
@@ -94,7 +97,8 @@ class Closer {
     graph_.joints.push_back(joint);
   }
 
-  /// Reads `closed_loop: [[A, B], …]`, `type: [3d, …]`, `name_mot: TEXT`.
+  /// Reads `closed_loop: [[A, B], …]`, `type: [3d, …]`, `joint_name: [A, …]`, `joint_type: [SPHERICAL, …]`,
+  /// `name_mot: TEXT`.
   void yaml(const std::filesystem::path& file) {
     SmallYaml text = readSmallYaml(file);
     const std::vector<std::string> types = text["type"], ends = text["closed_loop"];
@@ -105,7 +109,59 @@ class Closer {
         throw ImportError(fmt::format("robot.yaml: type '{}', expected 3d or 6d", shown(type)));
       pair(ends[k], ends[k + 1], type[0] == '3' ? JointKind::ball : JointKind::fixed, "robot.yaml");
     }
+    takeTypes(text["joint_name"], text["joint_type"]);
     takeMotors(text["name_mot"]);
+    for (const auto& [key, words] : text)
+      if (known_in_yaml.count(key) == 0)
+        graph_.assumptions.push_back(
+            {fmt::format("Nothing is known of {}, which is left out", shown(key)), "robot.yaml"});
+  }
+
+  /// Lets joints of the file be what robot.yaml says: a ball, a universal joint about two axes of its frame, none.
+  void takeTypes(const std::vector<std::string>& names, const std::vector<std::string>& types) {
+    if (names.size() != types.size())
+      throw ImportError(fmt::format("robot.yaml: {} names in joint_name and {} types in joint_type, expected as many",
+                                    names.size(), types.size()));
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const auto joint = std::find_if(graph_.joints.begin(), graph_.joints.end(),
+                                      [&](const GraphJoint& each) { return each.name == names[k] && !each.closure; });
+      if (joint == graph_.joints.end()) {
+        // The format's own loader passes over it.
+        std::vector<std::string> known;
+        for (const GraphJoint& each : graph_.joints)
+          if (known.size() < 1000) known.push_back(each.name);
+        graph_.assumptions.push_back(
+            {fmt::format("joint_name has a joint that the URDF does not have, and its type, {}, "
+                         "is left out{}",
+                         shown(types[k]), didYouMean(names[k], known)),
+             "robot.yaml: " + names[k], 1, "1", true});
+        continue;
+      }
+      become(types[k], *joint);
+      graph_.assumptions.push_back(
+          {fmt::format("This joint is another one than in the URDF, as robot.yaml says: {}", types[k]), joint->name, 1,
+           "1"});
+    }
+  }
+
+  void become(const std::string& type, GraphJoint& joint) const {
+    const Matrix3d axes = graph_.bodies[joint.child].frame.linear();
+    // "UJOINT_XY", with the two axes in its last letters.
+    const std::string letters = type.rfind("UJOINT", 0) == 0 ? type.substr(type[6] == '_' ? 7 : 6) : "";
+    if (letters.size() == 2 && letters.find_first_not_of("XYZ") == std::string::npos && letters[0] != letters[1]) {
+      joint.kind = JointKind::universal;
+      joint.axis = {axes.col(letters[0] - 'X'), axes.col(letters[1] - 'X')};
+    } else if (type == "SPHERICAL" || type == "FIXED") {
+      joint.kind = type == "FIXED" ? JointKind::fixed : JointKind::ball;
+      joint.axis = {axes.col(0), axes.col(1)};
+    } else {
+      throw ImportError(
+          fmt::format("robot.yaml: joint_type '{}' of {}, expected SPHERICAL, FIXED or UJOINT with two "
+                      "letters of X, Y and Z",
+                      shown(type), shown(joint.name)));
+    }
+    joint.upper = HUGE_VAL;
+    joint.lower = -HUGE_VAL;
   }
 
   /// Marks the driven joints. A single word is a part of the motors' names; in a list each word is a full name, and the

@@ -13,6 +13,9 @@ namespace ursula::exchange {
 /// Links of a URDF by name, as indices of the graph's bodies.
 using UrdfLinks = std::unordered_map<std::string, std::size_t>;
 
+/// Begins what is said of the root link.
+constexpr const char* root_stands_still = "The root link stands still";
+
 /// The few forms of YAML in a robot.yaml: `key: word`, `key: [a, [b, c]]`, and lists of `- a` below a key. Nested lists
 /// are flattened.
 using SmallYaml = std::map<std::string, std::vector<std::string>>;
