@@ -165,7 +165,8 @@ TEST(ReadIncludes, besideTheModel) {
   EXPECT_EQ(bodyOf(model, "own").mass, bodyOf(model, "in").mass);
   EXPECT_THAT(refusal("outer.xml", with("missing.xml")), HasSubstr("does not lie beside the model"));
   EXPECT_THAT(refusal("outer.xml", with("outer.xml")), HasSubstr("included twice"));
-  EXPECT_THAT(refusal("outer.xml", with("../read_mechanism/inner.xml")), HasSubstr("out of the model's folder"));
+  EXPECT_THAT(refusal("outer.xml", with("../read_mechanism_ReadIncludes/inner.xml")),
+              HasSubstr("out of the model's folder"));
   written("bad.xml", "<mujocoinclude><body>\n</mujocoinclude>");
   EXPECT_THAT(refusal("outer.xml", with("bad.xml")), HasSubstr("bad.xml:"));
 }
@@ -177,6 +178,18 @@ TEST(ReadNames, areOfTheirOwn) {
   EXPECT_EQ(model.machine.joints.at(0).name, "joint of line 1");
   EXPECT_EQ(model.machine.joints.at(1).name, "joint of line 1 (2)");
   EXPECT_EQ(model.machine.bodies.at(2).name, "body of line 1 (2)");
+}
+
+TEST(ReadMeshes, ofBodiesThatStandStillHaveNoEffect) {
+  const auto text = [](const std::string& joint, const std::string& compiler) {
+    return "<mujoco><compiler " + compiler + "/><worldbody><body name='base'>" + joint +
+           "<geom type='mesh' mesh='m'/><body name='a'><joint name='j'/><geom "
+           "size='0.1'/></body></body></worldbody></mujoco>";
+  };
+  EXPECT_THAT(together(mechanismOf("mesh.xml", text("", "")).assumptions),
+              HasSubstr("base: The mass of this body's mesh"));
+  EXPECT_THAT(refusal("mesh.xml", text("<joint name='k'/>", "")), HasSubstr("body base needs an <inertial>"));
+  EXPECT_THAT(refusal("mesh.xml", text("", "settotalmass='3'")), HasSubstr("body base needs an <inertial>"));
 }
 
 TEST(ReadMoments, thatNoBodyHasAreSaid) {

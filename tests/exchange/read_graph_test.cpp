@@ -158,13 +158,19 @@ TEST(ReadUrdf, gearedRotorAndGravity) {
   EXPECT_EQ(graph.gravity.z(), -9.81);
 }
 
-TEST(ReadUrdf, robotYamlNamesPairsAndMotors) {
+/// A folder with a URDF of two arms, and the file of its robot.yaml.
+std::filesystem::path folderOfArms() {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "read_graph_yaml";
   std::filesystem::create_directories(folder);
-  std::ofstream(folder / "robot.yaml") << "name: r\nclosed_loop: [['b', c]]\ntype: [3d]\nname_mot: mot\n";
   std::ofstream(folder / "r.urdf") << R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
     <joint name="mot1" type="continuous"><parent link="a"/><child link="b"/></joint>
     <joint name="free1" type="continuous"><parent link="a"/><child link="c"/><origin xyz="0 0 0.5"/></joint></robot>)";
+  return folder;
+}
+
+TEST(ReadUrdf, robotYamlNamesPairsAndMotors) {
+  const std::filesystem::path folder = folderOfArms();
+  std::ofstream(folder / "robot.yaml") << "name: r\nclosed_loop: [['b', c]]\ntype: [3d]\nname_mot: mot\n";
   const ModelGraph graph = readModel(folder / "r.urdf");
   ASSERT_EQ(graph.joints.size(), 3U);
   EXPECT_TRUE(graph.joints[0].driven);
@@ -183,6 +189,12 @@ TEST(ReadUrdf, robotYamlNamesPairsAndMotors) {
   std::ofstream(folder / "robot.yaml") << "closed_loop: [[mot1, none]]\n";
   EXPECT_THROW(readModel(folder / "r.urdf"), ImportError);
 
+  std::ofstream(folder / "robot.yaml") << "name_mot: [free1, mot1]\n";
+  EXPECT_THAT(readModel(folder / "r.urdf").motors, testing::ElementsAre("free1", "mot1"));
+}
+
+TEST(ReadUrdf, robotYamlChangesJoints) {
+  const std::filesystem::path folder = folderOfArms();
   std::ofstream(folder / "robot.yaml")
       << "joint_name: [free1, mot1]\njoint_type: ['SPHERICAL', 'UJOINT_ZY']\nother: 1\n";
   const ModelGraph other = readModel(folder / "r.urdf");
@@ -202,9 +214,6 @@ TEST(ReadUrdf, robotYamlNamesPairsAndMotors) {
     std::ofstream(folder / "robot.yaml") << wrong;
     EXPECT_THROW(readModel(folder / "r.urdf"), ImportError) << wrong;
   }
-
-  std::ofstream(folder / "robot.yaml") << "name_mot: [free1, mot1]\n";
-  EXPECT_THAT(readModel(folder / "r.urdf").motors, testing::ElementsAre("free1", "mot1"));
 }
 
 }  // namespace

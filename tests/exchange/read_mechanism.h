@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -12,7 +14,9 @@
 namespace ursula::exchange {
 
 inline std::filesystem::path written(const std::string& name, const std::string& text) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "read_mechanism";
+  // Suites run at the same time, each in a process of its own.
+  const std::string suite = testing::UnitTest::GetInstance()->current_test_info()->test_suite_name();
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / ("read_mechanism_" + suite);
   std::filesystem::create_directories(folder);
   std::ofstream(folder / name) << text;
   return folder / name;

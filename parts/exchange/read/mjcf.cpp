@@ -120,7 +120,9 @@ class MjcfReader {
       const auto get = [&](const char* name) { return defaults_.get(e, at.childclass, name); };
       if (body == 0 && (kind == "joint" || kind == "freejoint" || kind == "inertial"))
         refuse(e, "of the world, which does not move; expected one of a body");
-      if (kind == "geom" && body != 0 && from_geoms)
+      if (kind == "geom" && body != 0 && from_geoms && isOfNoEffect(body, get))
+        has_geoms = true;
+      else if (kind == "geom" && body != 0 && from_geoms)
         has_geoms = addGeom(e, compiler_, at.frame, get, graph_.bodies[body]) || has_geoms;
       if (kind == "inertial" && e.Parent() != &element) refuse(e, "within a <frame>, expected it in the body itself");
       if (kind == "site" && !attribute(e, "name").empty()) {
@@ -141,6 +143,15 @@ class MjcfReader {
     eachContent(element, place, [&](const Element& e, const Place& at) {
       if (std::string(e.Name()) == "body") readBody(e, body, at);
     });
+  }
+
+  /// Returns whether a geom's mass is that of a mesh on a body that is fixed to the world, and says so.
+  bool isOfNoEffect(std::size_t body, const MjcfGet& get) {
+    const bool is_mesh = !get("mesh").empty() || get("type") == "mesh" || get("type") == "sdf";
+    if (!is_mesh || still_.count(body) == 0 || compiler_.total_mass > 0) return false;
+    graph_.assumptions.push_back(
+        {"The mass of this body's mesh is left out: the body stands still", graph_.bodies[body].name});
+    return true;
   }
 
   void readBody(const Element& element, std::size_t parent, const Place& around) {
@@ -207,6 +218,7 @@ class MjcfReader {
     fixed.child = addBody(element, name, place.frame);
     fixed.centre = fixed.centre_of_child = place.frame.translation();
     graph_.joints.push_back(fixed);
+    if (still_.count(parent) != 0) still_.insert(fixed.child);
     return fixed.child;
   }
 
@@ -269,6 +281,7 @@ class MjcfReader {
   MjcfCompiler compiler_;
   MjcfDefaults defaults_;
   MjcfNamed named_;
+  std::set<std::size_t> still_ = {0};                                 ///< bodies that are fixed to the world
   std::vector<std::pair<const Element*, std::string>> compensating_;  ///< joints with actuatorgravcomp
   ModelGraph graph_;
 };

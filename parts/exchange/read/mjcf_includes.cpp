@@ -53,7 +53,8 @@ class Includer {
                                   "FILE.xml ONE.xml",
                                   shown(name), why));
     };
-    const std::filesystem::path file = folder_ / name, normal = std::filesystem::path(name).lexically_normal();
+    const std::filesystem::path normal = std::filesystem::path(name).lexically_normal();
+    std::filesystem::path file = folder_ / name;
     std::error_code none;
     if (!std::filesystem::is_regular_file(file, none)) refuseIt("is not read, as it does not lie beside the model");
     if (normal.is_absolute() || *normal.begin() == "..") refuseIt("is not read, as it lies out of the model's folder");

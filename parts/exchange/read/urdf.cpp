@@ -173,7 +173,8 @@ class UrdfReader {
       refuse(element,
              fmt::format(
                  "a {} joint, which a scenario has no words for, expected revolute, continuous, prismatic or fixed{}",
-                 shown(type), type == "planar" ? "; two slides and a hinge are the same" : ""));
+                 shown(type),
+                 type == "planar" ? "; two slides and a hinge are the same" : fmt::format("; {}", without_it)));
     joint.kind = kind->second;
     const Element* axis = onlyChild(element, "axis");
     const std::string xyz = axis == nullptr ? "" : attribute(*axis, "xyz");
