@@ -105,9 +105,9 @@ inline void members(Archive& archive, std::shared_ptr<const Scenario>& asked) {
 }
 
 inline void members(Archive& archive, ValidationResult& result) {
-  auto& [scenario, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause, causes,
+  auto& [scenario, kind, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause, causes,
          terms, words, windows, deviation, effort, timeseries, curves, events, asked] = result;
-  archive(scenario, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause, causes,
+  archive(scenario, kind, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause, causes,
           terms, words, windows, deviation, effort, timeseries, curves, events, asked);
 }
 

@@ -41,7 +41,7 @@ PYTHONS_HEADER = re.compile(r"pybind11/[\w/]+\.h")
 ENGINES_HEADER = re.compile(r"(mujoco|dart|drake|pinocchio|rbdl)/|tinyxml2\.h$")
 USERS_HEADER = re.compile(r"[a-z_]+|Eigen/\w+|ursula/\w+\.h")
 # Within nocsolver/ the legs never see the dynamics.
-WITHIN_SOLVER = {"legs": {"legs"}, "noc": {"noc", "legs"}, "": {"noc", "legs", ""}}
+WITHIN_SOLVER = {"legs": {"legs"}, "noc": {"noc", "legs"}, "loops": {"loops", "noc"}, "": {"noc", "legs", ""}}
 NAMESPACE = re.compile(r"namespace ([\w:]+) \{")
 TYPE = re.compile(r"(?:struct|class|enum class|enum) (\w+)(?: final)?(?: : [^;{]*)? ?\{")
 # An engine's own folder; side_by_side/ compares them.
@@ -149,7 +149,7 @@ def check_targets(root):
     """Checks what the CMake targets of each folder link."""
     forbidden = {"base": re.compile(r"(?i)ursula::(?!options|eigen|base)\w+|simbody|mujoco"),
                  "model": re.compile(r"(?i)ursula::(nocsolver|validation|report)|simbody|mujoco"),
-                 "nocsolver": re.compile(r"(?i)simbody|mujoco|ursula::(?!model|nocsolver)\w+|tbb"),
+                 "nocsolver": re.compile(r"(?i)simbody|mujoco|ursula::(?!model|nocsolver|loops)\w+|tbb"),
                  "simbody": re.compile(r"(?i)mujoco|ursula::(?!model|simbody|lapack)\w+"),
                  "validation": re.compile(r"(?i)ursula::(apps|report)|\$\{(simbody|ursula_mujoco)_"),
                  "report": re.compile(r"(?i)ursula::apps|\$\{(simbody|ursula_mujoco)_"),

@@ -59,7 +59,7 @@ std::vector<std::string> movers(const Mechanism& mechanism, const loops::LoopTre
 
 }  // namespace
 
-void LoopSolver::Impl::findFreedoms(const LoopPose& pose, LoopFreedoms& out, std::vector<IdleSpin>& idle) const {
+void LoopSolver::Impl::findFreedoms(const LoopPose& pose, LoopFreedoms& out, std::vector<RestingSpin>& idle) const {
   Frames frames(tree);
   frames.place(pose);
   MatrixXd G(closures.rows(), tree.rate_count);
@@ -69,7 +69,7 @@ void LoopSolver::Impl::findFreedoms(const LoopPose& pose, LoopFreedoms& out, std
   static_cast<void>(own.factorise(G));
   const MatrixXd Z = own.kernel(tree.rate_count);
   MatrixXd stack(0, Z.cols());
-  std::vector<IdleSpin> found;
+  std::vector<RestingSpin> found;
   for (std::size_t e = 0; e < lumps.size() && Z.cols() > 0; ++e) {
     if (lumps[e].isEmpty()) continue;
     const auto element = static_cast<int>(e);
@@ -91,7 +91,7 @@ void LoopSolver::Impl::findFreedoms(const LoopPose& pose, LoopFreedoms& out, std
   out.free = stack.rows() > 0 ? loops::rankByGap(stack).rank : 0;
   // What moves in the kernel without a body that weighs anything is idle as well.
   idle = found;
-  for (const IdleSpin& spin : found)
+  for (const RestingSpin& spin : found)
     for (const std::size_t b : lumps[loops::index(spin.element)].bodies) out.idle.push_back(mechanism.bodies()[b].name);
   if (out.free > 0) out.free_joints = movers(mechanism, tree, Z, scale);
   MatrixXd scaled = G;
@@ -149,7 +149,9 @@ std::vector<LoopSolver::JointValue> LoopSolver::joints(const LoopWork& work) con
   const auto& motors = own.mechanism.motors();
   for (std::size_t j = 0; j < own.mechanism.joints().size(); ++j) {
     const MechanismJoint& joint = own.mechanism.joints()[j];
-    if (joint.closure || std::find(motors.begin(), motors.end(), j) != motors.end()) continue;
+    const bool has_column =
+        !joint.closure || freedomsOf(joint.kind) == 1;  // a closing hinge or slide is a joint of the file
+    if (!has_column || std::find(motors.begin(), motors.end(), j) != motors.end()) continue;
     const int parent = own.tree.element_of_body[joint.parent], child = own.tree.element_of_body[joint.child];
     const loops::PointMotion A = frames.pointOf(parent, joint.centre), B = frames.pointOf(child, joint.centre_of_child);
     const Matrix3d &R_A = frames.at(parent).R, &R_B = frames.at(child).R;

@@ -41,7 +41,7 @@ void LoopSolver::Impl::stopSpins(const Frames& frames, const PassiveRates& solve
 
 void LoopSolver::Impl::complement(const Frames& frames, const MatrixXd& G, const PassiveRates& solver,
                                   MatrixXd& N) const {
-  N = MatrixXd::Zero(tree.rate_count, motors());
+  N.setZero(tree.rate_count, motors());
   MatrixXd G_a(G.rows(), motors());
   for (int k = 0; k < motors(); ++k) {
     G_a.col(k) = G.col(tree.rate_of_motor[loops::index(k)]);
@@ -63,6 +63,7 @@ VectorXd LoopSolver::Impl::bias(const Frames& frames, const PassiveRates& solver
 }
 
 void LoopSolver::Impl::fill(const MotorMotion& motion, const LoopPose& near, Frames& frames, LoopWork& work) const {
+  if (work.u.size() != tree.rate_count) work = LoopWork();  // it was another mechanism's
   work.pose = near;
   for (int k = 0; k < motors(); ++k)
     work.pose.q(tree.rate_of_motor[loops::index(k)]) = motion.q(k) - mechanism.motor(loops::index(k)).position;

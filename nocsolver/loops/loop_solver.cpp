@@ -201,7 +201,7 @@ VectorXd LoopSolver::motorCoordinates(const LoopPose& pose) const {
 
 LoopFreedoms LoopSolver::freedoms(const LoopPose& pose) const {
   LoopFreedoms out;
-  std::vector<IdleSpin> spins;
+  std::vector<RestingSpin> spins;
   impl_->findFreedoms(pose, out, spins);
   return out;
 }

@@ -39,14 +39,14 @@ struct LoopWork {
   std::vector<BodyState> bodies;    ///< in the order of the mechanism
   loops::MatrixXd N;                ///< rates of the tree × motors: u = N q̇
   loops::VectorXd u, u_dot;         ///< rates of the tree's coordinates, and their derivatives
-  std::vector<loops::MatrixXd> T;   ///< of each body, 6 × motors: t = T q̇ (paper, eq. 32a)
+  std::vector<loops::MatrixXd> T;   ///< of each body, 6 × motors: t = T q̇, (32a)
   double reciprocal_condition = 1;  ///< of the passive rates
   double closing = 0;               ///< largest error of a closure that remains, relative to the machine's length
 };
 
 /// The natural orthogonal complement of a mechanism with any closed loops, from its closures: joint rates u = N q̇ of a
-/// spanning tree by the closures' Jacobian, body twists t = T q̇ column by column (paper, eq. 48; Featherstone, Rigid
-/// Body Dynamics Algorithms, ch. 8; Angeles and Lee 1988), and then (31) to (38) of the paper for any number of bodies
+/// spanning tree by the closures' Jacobian, body twists t = T q̇ column by column as in (48) (Featherstone, Rigid Body
+/// Dynamics Algorithms, ch. 8; Angeles and Lee 1988), and then (31) to (38) of the paper for any number of bodies
 /// and motors. Redundant closures are allowed. Motors' coordinates are those of the model file. Immutable; threads
 /// share it.
 class LoopSolver {
@@ -87,7 +87,8 @@ class LoopSolver {
     std::string name;  ///< "knee_rad", "ball_w"
     double value = 0, rate = 0, acceleration = 0;
   };
-  /// Returns the coordinates of all joints that are no motors and no closures of the file. Needs kinematics.
+  /// Returns the coordinates of all joints that are no motors, and of the hinges and slides among the file's closures.
+  /// Needs kinematics.
   std::vector<JointValue> joints(const LoopWork& work) const;
 
  private:

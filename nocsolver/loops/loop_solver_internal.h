@@ -10,7 +10,7 @@ using loops::MatrixXd;
 using loops::VectorXd;
 
 /// Bodies that may spin without effect on any effort: the row û·J_ω of each, weighted by the root of its axial inertia.
-struct IdleSpin {
+struct RestingSpin {
   int element = -1;
   Vector3d axis = Vector3d::Zero();  ///< at the reference pose
   double weight = 1;
@@ -39,13 +39,13 @@ struct LoopSolver::Impl {
   loops::LoopPose reference;                 ///< the assembled one
   double gap = 0;
   loops::PassiveRates rates;  ///< with the rank decided at the assembled pose
-  std::vector<IdleSpin> spins;
+  std::vector<RestingSpin> spins;
 
   int motors() const { return static_cast<int>(tree.rate_of_motor.size()); }
   loops::LoopPose zeroPose() const;
   void assemble();
   /// Finds idle spins among the kernel's motions, and what else is free.
-  void findFreedoms(const loops::LoopPose& pose, LoopFreedoms& out, std::vector<IdleSpin>& spins) const;
+  void findFreedoms(const loops::LoopPose& pose, LoopFreedoms& out, std::vector<RestingSpin>& spins) const;
   /// Closes the loops by passive rates alone. Returns the length of all steps, or infinity if they do not converge.
   double close(loops::LoopPose& pose, loops::Frames& frames, loops::PassiveRates& solver, int most) const;
   double errorOf(const loops::Frames& frames, std::size_t* joint) const;

@@ -35,7 +35,7 @@ ValidationResult passing(const Scenario& scenario) {
 SuiteOptions options(int jobs, std::function<ValidationResult(const Scenario&)> judge) {
   SuiteOptions out;
   out.jobs = jobs;
-  out.judge = std::move(judge);
+  out.judge = [judge = std::move(judge)](const SuiteMember& member) { return judge(*member.scenario); };
   return out;
 }
 

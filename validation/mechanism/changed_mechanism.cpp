@@ -22,7 +22,7 @@ void transform(const Matrix3d& R, const Vector3d& shift, double scale, Mechanism
   for (MechanismJoint& joint : machine.joints) {
     point(joint.centre);
     point(joint.centre_of_child);
-    turned(joint.turn);
+    if (joint.turn != Matrix3d::Identity()) turned(joint.turn);  // a closed joint stays closed to the last bit
     for (Vector3d& axis : joint.axis) axis = (R * axis).eval();
   }
   machine.gravity = (scale * (R * machine.gravity)).eval();
