@@ -16,12 +16,13 @@ Vector6d movedTo(const Vector3d& arm, const Vector6d& at) {
   return out;
 }
 
-/// Bodies that fixed joints weld together: the first of them stands for all.
-std::vector<std::size_t> weldedGroups(const Mechanism& mechanism) {
+/// Bodies that fixed joints weld together, and slides too if asked for: the first of them stands for all.
+std::vector<std::size_t> groupsBy(const Mechanism& mechanism, bool slides_too) {
   std::vector<std::size_t> group(mechanism.bodies().size());
   std::iota(group.begin(), group.end(), std::size_t{0});
   for (const MechanismJoint& joint : mechanism.joints()) {
-    if (joint.kind != JointKind::fixed || joint.isOpen()) continue;
+    const bool joins = joint.kind == JointKind::fixed || (slides_too && joint.slides());
+    if (!joins || joint.isOpen()) continue;
     const std::size_t from = std::max(group[joint.parent], group[joint.child]);
     const std::size_t to = std::min(group[joint.parent], group[joint.child]);
     std::replace(group.begin(), group.end(), from, to);
@@ -29,13 +30,11 @@ std::vector<std::size_t> weldedGroups(const Mechanism& mechanism) {
   return group;
 }
 
-/// Mass, mass centre and central inertia of a group, and where its balls are.
+/// Mass, mass centre and central inertia of a group.
 struct WeldedGroup {
   double mass = 0, rounding = 0;
   Vector3d center = Vector3d::Zero();
   Matrix3d inertia = Matrix3d::Zero();
-  std::vector<Vector3d> balls;
-  bool is_rod = true;  ///< not fixed, and only balls without loads at it
 };
 
 WeldedGroup groupOf(const Mechanism& mechanism, const std::vector<std::size_t>& groups, std::size_t group) {
@@ -43,7 +42,6 @@ WeldedGroup groupOf(const Mechanism& mechanism, const std::vector<std::size_t>& 
   const auto& bodies = mechanism.bodies();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (groups[b] != group) continue;
-    if (bodies[b].fixed) out.is_rod = false;
     out.mass += bodies[b].mass;
     out.center += bodies[b].mass * bodies[b].center_of_mass;
     out.rounding += bodies[b].inertia_rounding;
@@ -55,19 +53,35 @@ WeldedGroup groupOf(const Mechanism& mechanism, const std::vector<std::size_t>& 
     out.inertia +=
         bodies[b].inertia + bodies[b].mass * (arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose());
   }
-  for (const MechanismJoint& joint : mechanism.joints()) {
-    const bool of_parent = groups[joint.parent] == group, of_child = groups[joint.child] == group;
-    if (of_parent == of_child) continue;
-    out.is_rod = out.is_rod && joint.kind == JointKind::ball && !joint.isLoaded();
-    out.balls.push_back(of_parent ? joint.centre : joint.centre_of_child);
-  }
   return out;
 }
 
+/// Returns the line between the two balls of a strut, a rod or parts that slide along each other; zero if other joints
+/// or loads hold it.
+Vector3d lineOf(const Mechanism& mechanism, const std::vector<std::size_t>& struts, std::size_t strut) {
+  std::vector<Vector3d> balls;
+  bool is_free = true;
+  for (std::size_t b = 0; b < struts.size(); ++b)
+    is_free = is_free && !(struts[b] == strut && mechanism.bodies()[b].fixed);
+  for (const MechanismJoint& joint : mechanism.joints()) {
+    const bool of_parent = struts[joint.parent] == strut, of_child = struts[joint.child] == strut;
+    if (of_parent == of_child) continue;
+    is_free = is_free && joint.kind == JointKind::ball && !joint.isLoaded();
+    balls.push_back(of_parent ? joint.centre : joint.centre_of_child);
+  }
+  if (!is_free || balls.size() != 2 || (balls[1] - balls[0]).norm() < 1e-9 * mechanism.length())
+    return Vector3d::Zero();
+  const Vector3d line = (balls[1] - balls[0]).normalized();
+  for (const MechanismJoint& joint : mechanism.joints())
+    if (joint.slides() && struts[joint.parent] == strut && joint.axis[0].cross(line).norm() > 1e-9)
+      return Vector3d::Zero();
+  return line;
+}
+
 /// Whether a turn of the group about the line moves no mass and needs no force.
-bool isSymmetricAbout(const WeldedGroup& group, const Vector3d& line, double length) {
+bool isSymmetricAbout(const WeldedGroup& group, const Vector3d& on_line, const Vector3d& line, double length) {
   constexpr double decimals = 1e-9;  // of a file that rounds its numbers
-  if (group.mass > 0 && line.cross(group.center - group.balls[0]).norm() > decimals * length) return false;
+  if (group.mass > 0 && line.cross(group.center - on_line).norm() > decimals * length) return false;
   const Vector3d a = anyAcross(line), b = line.cross(a);
   const Matrix3d& I = group.inertia;
   const double room = decimals * I.cwiseAbs().maxCoeff() + 2 * group.rounding;
@@ -78,16 +92,22 @@ bool isSymmetricAbout(const WeldedGroup& group, const Vector3d& line, double len
 }  // namespace
 
 std::vector<IdleSpin> idleSpins(const Mechanism& mechanism) {
-  const std::vector<std::size_t> groups = weldedGroups(mechanism);
+  const std::vector<std::size_t> groups = groupsBy(mechanism, false), struts = groupsBy(mechanism, true);
   std::vector<IdleSpin> out;
-  for (std::size_t b = 0; b < groups.size(); ++b) {
-    if (groups[b] != b) continue;
-    const WeldedGroup group = groupOf(mechanism, groups, b);
-    if (!group.is_rod || group.balls.size() != 2) continue;
-    const Vector3d apart = group.balls[1] - group.balls[0];
-    if (apart.norm() < 1e-9 * mechanism.length()) continue;
-    const Vector3d line = apart.normalized();
-    if (isSymmetricAbout(group, line, mechanism.length())) out.push_back({b, line});
+  for (std::size_t strut = 0; strut < struts.size(); ++strut) {
+    if (struts[strut] != strut) continue;
+    const Vector3d line = lineOf(mechanism, struts, strut);
+    if (line.isZero(0)) continue;
+    const auto ball =
+        std::find_if(mechanism.joints().begin(), mechanism.joints().end(), [&](const MechanismJoint& joint) {
+          return joint.kind == JointKind::ball && (struts[joint.parent] == strut || struts[joint.child] == strut);
+        });
+    const Vector3d on_line = struts[ball->parent] == strut ? ball->centre : ball->centre_of_child;
+    bool is_round = true;
+    for (std::size_t b = 0; b < groups.size(); ++b)
+      if (groups[b] == b && struts[b] == strut)
+        is_round = is_round && isSymmetricAbout(groupOf(mechanism, groups, b), on_line, line, mechanism.length());
+    if (is_round) out.push_back({strut, line});
   }
   return out;
 }

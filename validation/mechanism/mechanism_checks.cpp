@@ -20,7 +20,7 @@ class Judge {
   /// Efforts of the subject against `theirs`, which returns null where there are none.
   template <class Theirs>
   Check efforts(const std::string& name, const std::string& what, const std::vector<MechanismSample>& samples,
-                const Theirs& theirs) const {
+                const Theirs& theirs, double level) const {
     WorstShare worst;
     CheckedQuantity of{name, evidence_.unit, evidence_.largest};
     of.seen = of.along = evidence_.largest;
@@ -31,7 +31,7 @@ class Judge {
       for (Eigen::Index k = 0; k < difference.size(); ++k) {
         const double in = evidence_.efforts_in(k);
         const double given = sample.given.size() > 0 ? sample.given(k) * in : 0;
-        worst.add(std::abs(difference(k)) * in, evidence_.limit(sample, k) + given, sample.motion.t,
+        worst.add(std::abs(difference(k)) * in, evidence_.limit(sample, k, level) + given, sample.motion.t,
                   static_cast<int>(k));
         of.given = std::max(of.given, given);
       }
@@ -43,7 +43,9 @@ class Judge {
               bool of_motor) const {
     if (!worst.any) return notMade(of.name, of.unit, "no instant was compared");
     const std::string basis = fmt::format(
-        "eps x kappa(G_p)^2 x the terms that cancel x {:.3g}, what independent roundings of two trees add up to; there "
+        "eps x kappa(G_p)^2 x the terms that cancel x {:.3g}, what independent roundings add up to, and 10 times what "
+        "one "
+        "rounding of the inputs changes of the engine; there "
         "kappa(G_p) = {:.3g} at most",
         evidence_.level, condition);
     const auto place = [this, of_motor](int where) { return of_motor ? motorName(where) : std::string(); };
@@ -64,8 +66,10 @@ class Judge {
       const double own = size(sample);
       condition = std::max(condition, sample.condition);
       of.size = std::max(of.size, own);
-      worst.add(value(sample), times * evidence_.level * rounding * sample.condition * sample.condition * own,
-                sample.motion.t);
+      worst.add(
+          value(sample),
+          times * (evidence_.level + evidence_.levelOfSimbody()) * rounding * sample.condition * sample.condition * own,
+          sample.motion.t);
     }
     of.seen = of.along = of.size;
     return shown(of, worst, fmt::format("{}, at {} instants", what, evidence_.samples.size()), condition, false);
@@ -86,11 +90,8 @@ Check judgeAccelerations(const Judge& judge, const std::string& name, const std:
   for (const MechanismSample& sample : evidence.samples) {
     const MotorEfforts difference = sample.*ours - theirs(sample);
     condition = std::max(condition, sample.condition);
-    MotorEfforts allowed(difference.size());
-    for (Eigen::Index k = 0; k < allowed.size(); ++k)
-      allowed(k) =
-          2 * evidence.limit(sample, k) / evidence.efforts_in(k) + (sample.given.size() > 0 ? sample.given(k) : 0);
-    const MotorEfforts response = sample.inverse_inertia.cwiseAbs() * allowed;
+    MotorEfforts response = (2 * evidence.level + evidence.acceleration_level) * evidence.response(sample);
+    if (sample.given.size() > 0) response += sample.inverse_inertia.cwiseAbs() * sample.given;
     for (Eigen::Index k = 0; k < difference.size(); ++k) {
       const double in = judge.mechanism_.motor(static_cast<std::size_t>(k)).slides() ? 1 : length;
       worst.add(std::abs(difference(k)) * in, response(k) * in, sample.motion.t, static_cast<int>(k));
@@ -187,16 +188,17 @@ std::vector<Check> judgeMechanism(const MechanismEvidence& evidence, const Mecha
   const Judge judge(evidence);
   using S = MechanismSample;
   for (std::size_t e = 0; e < evidence.engines.size(); ++e)
-    out.push_back(judge.efforts(evidence.engines[e].check, "efforts against " + evidence.engines[e].voice,
-                                evidence.samples, [e](const S& s) { return s.engines[e]; }));
+    out.push_back(judge.efforts(
+        evidence.engines[e].check, "efforts against " + evidence.engines[e].voice, evidence.samples,
+        [e](const S& s) { return s.engines[e]; }, evidence.engines[e].level));
   if (!subject.isNoc())
-    out.push_back(judge.efforts("torque.against_noc", "efforts against the NOC", evidence.samples,
-                                [](const S& s) { return s.noc; }));
+    out.push_back(judge.efforts(
+        "torque.against_noc", "efforts against the NOC", evidence.samples, [](const S& s) { return s.noc; }, 0));
   if (!evidence.between.empty()) {
     Check between = judge.efforts(
         "torque.between",
         subject.isNoc() ? "the NOC against Simbody between the samples" : "answers against the NOC between the samples",
-        evidence.between, [](const S& s) { return s.noc; });
+        evidence.between, [](const S& s) { return s.noc; }, subject.isNoc() ? evidence.levelOfSimbody() : 0);
     between.gap = 2 * evidence.scenario->trajectory->duration() / static_cast<double>(evidence.between.size());
     out.push_back(between);
   }

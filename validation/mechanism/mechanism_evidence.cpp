@@ -65,13 +65,15 @@ int rankOfShaping(const LoopWork& work, double length) {
   return loops::rankByGap(all).rank;
 }
 
-void compareBodies(const SimbodyMechanism& engine, const LoopWork& work, double length, MechanismSample& sample) {
+void compareBodies(const SimbodyMechanism& engine, const LoopWork& work, double length, const std::vector<char>& idle,
+                   MechanismSample& sample) {
   const auto theirs = engine.bodies();
   for (std::size_t b = 0; b < theirs.size(); ++b) {
     const BodyState& ours = work.bodies[b];
     const Vector3d moved = ours.displacement.inverse() * ours.center;
-    const double place = (theirs[b].displacement * moved - ours.center).norm() +
-                         length * turnBetween(theirs[b].displacement.linear(), ours.displacement.linear());
+    const double place =
+        (theirs[b].displacement * moved - ours.center).norm() +
+        (idle[b] != 0 ? 0 : length * turnBetween(theirs[b].displacement.linear(), ours.displacement.linear()));
     sample.position = larger(sample.position, place);
     sample.twist = larger(sample.twist, twistSize(theirs[b].twist - ours.twist, length));
     sample.twist_rate = larger(sample.twist_rate, twistSize(theirs[b].twist_rate - ours.twist_rate, length));
@@ -126,9 +128,67 @@ void setUnits(const Mechanism& mechanism, MechanismEvidence& out) {
 
 }  // namespace
 
-double MechanismEvidence::limit(const MechanismSample& sample, Eigen::Index k) const {
-  return level * rounding * sample.condition * sample.condition * sample.scale(k) * efforts_in(k);
+double MechanismEvidence::shape(const MechanismSample& sample, Eigen::Index k) const {
+  return rounding * sample.condition * sample.condition * sample.scale(k) * efforts_in(k);
 }
+
+MotorEfforts MechanismEvidence::response(const MechanismSample& sample) const {
+  MotorEfforts each(sample.scale.size());
+  for (Eigen::Index k = 0; k < each.size(); ++k) each(k) = shape(sample, k) / efforts_in(k);
+  return sample.inverse_inertia.cwiseAbs() * each;
+}
+
+double MechanismEvidence::levelOfSimbody() const {
+  double out = 0;
+  for (const MechanismEngine& engine : engines)
+    if (engine.engine == "Simbody") out = std::max(out, engine.level);
+  return out;
+}
+
+namespace {
+
+/// Moves each number by one rounding, or zeros by one of the largest.
+MotorMotion movedByRounding(MotorMotion motion) {
+  double sign = 1;
+  for (Eigen::VectorXd* each : {&motion.q, &motion.qdot, &motion.qddot}) {
+    const double size = std::max(each->cwiseAbs().maxCoeff(), 1e-3);
+    for (Eigen::Index k = 0; k < each->size(); ++k, sign = -sign) (*each)(k) += sign * rounding * size;
+  }
+  return motion;
+}
+
+constexpr double safety = 10;  // as for manipulators
+
+/// Returns some of the samples.
+std::vector<const MechanismSample*> someOf(const std::vector<MechanismSample>& samples) {
+  constexpr std::size_t instants = 12;
+  const std::size_t step = std::max<std::size_t>(1, samples.size() / instants);
+  std::vector<const MechanismSample*> out;
+  for (std::size_t i = 0; i < samples.size(); i += step) out.push_back(&samples[i]);
+  return out;
+}
+
+/// Measures how an engine's efforts and accelerations change if its inputs change by one rounding.
+void measureLevels(SimbodyMechanism& simbody, MechanismEvidence& evidence) {
+  for (const MechanismSample* sample : someOf(evidence.samples)) {
+    const MotorMotion moved = movedByRounding(sample->motion);
+    for (std::size_t e = 0; e < evidence.engines.size(); ++e) {
+      MechanismEngine& engine = evidence.engines[e];
+      const MotorEfforts change = engine.efforts(moved) - sample->engines[e];
+      for (Eigen::Index k = 0; k < change.size(); ++k)
+        if (const double shape = evidence.shape(*sample, k); shape > 0)
+          engine.level = std::max(engine.level, safety * std::abs(change(k)) * evidence.efforts_in(k) / shape);
+    }
+    simbody.place(moved);
+    const MotorEfforts change = simbody.accelerations(sample->subject) - sample->acceleration;
+    const MotorEfforts response = evidence.response(*sample);
+    for (Eigen::Index k = 0; k < change.size(); ++k)
+      if (response(k) > 0)
+        evidence.acceleration_level = std::max(evidence.acceleration_level, safety * std::abs(change(k)) / response(k));
+  }
+}
+
+}  // namespace
 
 MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopMotion& motion,
                                   const MechanismSubject& subject, const std::vector<MakeMechanismEngine>& makers,
@@ -147,6 +207,11 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
   SimbodyMechanism simbody(mechanism);
   for (const MakeMechanismEngine& make : makers)
     if (auto engine = make(scenario)) out.engines.push_back(std::move(*engine));
+  // How far an idle body has turned about its own line is anybody's choice.
+  std::vector<char> idle(mechanism.bodies().size(), 0);
+  const std::vector<std::string> spinning = solver.freedoms(solver.assembled()).idle;
+  for (std::size_t b = 0; b < idle.size(); ++b)
+    idle[b] = std::find(spinning.begin(), spinning.end(), mechanism.bodies()[b].name) != spinning.end() ? 1 : 0;
   LoopWork work;
   for (std::size_t i = 0; i < instants.size(); ++i) {
     deadline.require();
@@ -160,7 +225,7 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
     sample.condition = 1 / work.reciprocal_condition;
     sample.output = work.bodies[mechanism.output()].displacement * mechanism.bodies()[mechanism.output()].frame;
     simbody.place(sample.motion);
-    compareBodies(simbody, work, mechanism.length(), sample);
+    compareBodies(simbody, work, mechanism.length(), idle, sample);
     for (const MechanismEngine& engine : out.engines) sample.engines.push_back(engine.efforts(sample.motion));
     sample.acceleration = simbody.accelerations(sample.subject);
     sample.inverse_inertia = solver.inertia(work).inverse();
@@ -175,7 +240,7 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
     out.widest_gap = std::max(out.widest_gap, instants[i] - instants[i - 1]);
   out.covers = !instants.empty() && instants.front() <= 1e-9 * duration && instants.back() >= duration * (1 - 1e-9);
   if (!subject.given) {
-    constexpr int count = 1500;
+    constexpr int count = 600;
     const std::vector<double> dense = goldenInstants(duration, count);
     if (subject.answers) answers = answersOf(subject, motion, dense, deadline);
     SimbodyMechanism other(mechanism);
@@ -195,6 +260,7 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
       out.between.push_back(std::move(sample));
     }
   }
+  measureLevels(simbody, out);
   if (subject.isNoc()) out.invariances = askInvariances(scenario, motion);
   return out;
 }

@@ -51,6 +51,8 @@ struct MechanismEngine {
   std::string voice;   ///< "Simbody, other joints cut"
   std::string engine;  ///< as in CheckRow::engine
   std::function<MotorEfforts(const MotorMotion&)> efforts;
+  /// Its rounding in units of MechanismEvidence::shape, measured with inputs changed by one rounding.
+  double level = 0;
 };
 /// Makes an engine for a mechanism; null if this build or machine has none.
 using MakeMechanismEngine = std::function<std::unique_ptr<MechanismEngine>(const MechanismScenario&)>;
@@ -104,14 +106,23 @@ struct MechanismEvidence {
   std::vector<MechanismWindow> windows;
   MotorEfforts efforts_in;  ///< what turns each motor's effort into the shown unit: 1, or the length if motors differ
   double level = 25;        ///< units of rounding that add up from the base to an effort
-  double largest = 0;       ///< effort along the motion, in the shown unit
-  std::string unit;         ///< "N m", or "N" if all motors slide
+  double acceleration_level = 0;  ///< that of Simbody's accelerations under efforts, measured
+  double largest = 0;             ///< effort along the motion, in the shown unit
+  std::string unit;               ///< "N m", or "N" if all motors slide
   std::string not_replayed, out_of_time;
   bool covers = true;  ///< the given instants cover the motion
   double widest_gap = 0;
 
-  /// The bound of rounding in an effort of motor k.
-  double limit(const MechanismSample& sample, Eigen::Index k) const;
+  /// The growth of rounding in an effort of motor k with pose and machine, in the shown unit.
+  double shape(const MechanismSample& sample, Eigen::Index k) const;
+  /// The bound of rounding in that effort: of the NOC and of an engine with this level.
+  double limit(const MechanismSample& sample, Eigen::Index k, double level_of_engine = 0) const {
+    return (level + level_of_engine) * shape(sample, k);
+  }
+  /// What errors of one unit of shape in all efforts change of the motors' accelerations.
+  MotorEfforts response(const MechanismSample& sample) const;
+  /// The largest level of Simbody's trees.
+  double levelOfSimbody() const;
 };
 
 /// Runs all experiments.

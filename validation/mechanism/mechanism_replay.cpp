@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 #include <limits>
@@ -89,7 +90,10 @@ void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const
   const double step_bound = shortestTime(evidence);
   int steps = 8;
   while (duration / window_count / steps > 0.5 * step_bound && steps < 4096) steps *= 2;
-  if (steps > 256) {
+  // As much work whatever the step: fewer windows if they need more steps.
+  constexpr int most_steps = 64, work_of_all = 12 * 16;
+  const int windows = std::clamp(work_of_all / steps, 2, window_count);
+  if (steps > most_steps) {
     evidence.not_replayed =
         "friction changes within a time that no explicit step follows; accelerations are compared instead";
     return;
@@ -97,15 +101,15 @@ void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const
   Replayer replayer(scenario, efforts, deadline);
   const Vector3d center = mechanism.bodies()[mechanism.output()].center_of_mass;
   LoopWork work;
-  for (int w = 0; w < window_count; ++w) {
+  for (int w = 0; w < windows; ++w) {
     MechanismWindow window;
-    window.start = duration * w / window_count;
-    window.end = duration * (w + 1) / window_count;
+    window.start = duration * w / windows;
+    window.end = window.start + duration / window_count;
     const MotorMotion start = evidence.motion->trajectory().at(window.start);
     const MechanismSample& sample = sampleAt(evidence, window.end);
     MotorEfforts noise(mechanism.motorCount());
     for (Eigen::Index k = 0; k < noise.size(); ++k)
-      noise(k) = ((k % 2 == 0) ? 1 : -1) * evidence.limit(sample, k) / evidence.efforts_in(k);
+      noise(k) = ((k % 2 == 0) ? 1 : -1) * evidence.limit(sample, k, evidence.acceleration_level) / evidence.efforts_in(k);
     const MotorEfforts none = MotorEfforts::Zero(noise.size());
     const End coarse = replayer.run(start, window.end, steps, none),
               fine = replayer.run(start, window.end, 2 * steps, none);
