@@ -1,0 +1,115 @@
+// The verdict of mechanisms: right efforts pass, wrong ones fail with the motor named.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "model/instants.h"
+#include "tests/loops/loop_scenario.h"
+#include "validation/mechanism/validate_mechanism.h"
+
+namespace ursula {
+namespace {
+
+/// The NOC's efforts of a machine along the scenario's motion, as a file would have them.
+GivenEfforts effortsOf(const MechanismScenario& scenario) {
+  const MechanismAlong along(scenario);
+  GivenEfforts out;
+  out.name = "mine.csv";
+  LoopWork work;
+  for (const double t : equallySpaced(scenario.trajectory->duration(), 101)) {
+    out.t.push_back(t);
+    out.efforts.push_back(along.motion().inverseDynamics(t, work));
+    out.precision.emplace_back(MotorEfforts::Zero(out.efforts.back().size()));
+  }
+  return out;
+}
+
+ValidationResult judged(const MechanismScenario& scenario, GivenEfforts efforts) {
+  MechanismSubject subject;
+  subject.about = {efforts.name, Formulation::external, CalledBy::torques};
+  subject.given = std::make_shared<const GivenEfforts>(std::move(efforts));
+  return validateMechanism(scenario, subject);
+}
+
+MechanismScenario shortened(MechanismScenario scenario) {
+  scenario.simulation.samples = 31;
+  return scenario;
+}
+
+class MechanismVerdict : public testing::TestWithParam<const char*> {};
+
+TEST_P(MechanismVerdict, ofTheNocIsPass) {
+  const ValidationResult result = validateMechanism(shortened(loopScenario(GetParam())));
+  std::string failed;
+  for (const Check& check : result.checks)
+    if (check.verdict != Verdict::pass && check.verdict != Verdict::not_applicable) failed += check.name + " ";
+  EXPECT_EQ(result.verdict, Verdict::pass) << failed;
+  for (const char* name : {"torque.pointwise", "torque.twin", "torque.between", "acceleration.pointwise",
+                           "direct.pointwise", "complement.orthogonality", "complement.rank", "kinematics.positions",
+                           "invariance.rotation", "invariance.labels", "invariance.units"}) {
+    const Check* check = findCheck(result.checks, name);
+    ASSERT_NE(check, nullptr) << name;
+    EXPECT_EQ(check->verdict, Verdict::pass) << name;
+    EXPECT_TRUE(std::isfinite(check->value)) << name;
+  }
+  EXPECT_EQ(result.kind, "mechanism");
+  ASSERT_TRUE(result.deviation);
+  EXPECT_GT(result.deviation->largest_effort, 0);
+}
+
+TEST_P(MechanismVerdict, ofRightEffortsIsPassAndOfAMillionthOffInOneMotorIsFail) {
+  const MechanismScenario scenario = loopScenario(GetParam());
+  const GivenEfforts right = effortsOf(scenario);
+  EXPECT_EQ(judged(scenario, right).verdict, Verdict::pass);
+  GivenEfforts wrong = right;
+  for (MotorEfforts& each : wrong.efforts) each(0) *= 1 + 3e-6;
+  const ValidationResult result = judged(scenario, wrong);
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  ASSERT_TRUE(result.deviation);
+  EXPECT_EQ(result.deviation->where, scenario.mechanism->motor(0).name);
+  EXPECT_EQ(findCheck(result.checks, "torque.against_noc")->verdict, Verdict::fail);
+  EXPECT_EQ(findCheck(result.checks, "torque.pointwise")->verdict, Verdict::fail);
+}
+
+TEST_P(MechanismVerdict, ofAMassOffByATenThousandthIsFail) {
+  const MechanismScenario scenario = loopScenario(GetParam());
+  const MechanismScenario other = changedScenario(scenario, [](MechanismParameters& machine) {
+    for (MechanismBody& body : machine.bodies) body.mass *= 1.0001;
+  });
+  EXPECT_EQ(judged(scenario, effortsOf(other)).verdict, Verdict::fail);
+}
+
+INSTANTIATE_TEST_SUITE_P(Machines, MechanismVerdict,
+                         testing::Values("fourbar", "planar3rrr", "ankle", "delta", "delta_balls", "boom_rub",
+                                         "fourbar_rub"),
+                         [](const auto& machine) { return std::string(machine.param); });
+
+TEST(MechanismTolerance, ofTheUserDecides) {
+  MechanismScenario scenario = loopScenario("fourbar");
+  GivenEfforts wrong = effortsOf(scenario);
+  for (MotorEfforts& each : wrong.efforts) each *= 1.001;
+  EXPECT_EQ(judged(scenario, wrong).verdict, Verdict::fail);
+  scenario.tolerance = EffortTolerance{0.01, 0};
+  const ValidationResult result = judged(scenario, wrong);
+  EXPECT_EQ(result.verdict, Verdict::pass);
+  EXPECT_EQ(result.limits, LimitBy::user);
+  scenario.tolerance = EffortTolerance{2, 0};
+  EXPECT_THROW(judged(scenario, wrong), ScenarioError) << "zeros would pass";
+}
+
+TEST(MechanismDigits, countAsPrinted) {
+  const MechanismScenario scenario = loopScenario("fourbar");
+  GivenEfforts rounded = effortsOf(scenario);
+  for (std::size_t i = 0; i < rounded.t.size(); ++i) {
+    rounded.efforts[i] = (rounded.efforts[i] * 1e4).array().round() / 1e4;
+    rounded.precision[i].setConstant(0.5e-4);
+  }
+  EXPECT_NE(judged(scenario, rounded).verdict, Verdict::fail);
+  rounded.efforts[50](0) += 2e-3;
+  EXPECT_EQ(judged(scenario, rounded).verdict, Verdict::fail);
+}
+
+}  // namespace
+}  // namespace ursula
