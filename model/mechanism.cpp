@@ -33,6 +33,7 @@ std::vector<std::size_t> distances(const MechanismParameters& machine) {
   for (bool changed = true; changed;) {
     changed = false;
     for (const MechanismJoint& joint : machine.joints) {
+      if (joint.kind == JointKind::free) continue;  // it connects nothing
       const std::size_t step = joint.kind == JointKind::fixed ? 0 : 1;
       for (const auto& [from, to] : {std::pair(joint.parent, joint.child), std::pair(joint.child, joint.parent)})
         if (out[from] != unreached && out[from] + step < out[to]) {
