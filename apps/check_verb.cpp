@@ -26,7 +26,10 @@ struct CheckOptions {
 /// Prints warnings to standard output and errors to standard error; returns false if there is an error.
 bool checkOne(const std::string& file, const CheckOptions& options) {
   try {
-    if (const auto mechanism = openMechanism(file)) return checkMechanism(*mechanism) == exit_passed;
+    if (const auto mechanism = openMechanism(file)) {
+      requireApart(*mechanism, options.picture);
+      return checkMechanism(*mechanism, options.picture) == exit_passed;
+    }
     const Scenario scenario = readScenarioOrInput(file);
     requireApart(scenario, {options.picture});
     for (const std::string& note : readAs(scenario)) say("{}\n", note);

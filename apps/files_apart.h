@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <string>
 
+#include "model/mechanism_scenario.h"
 #include "model/scenario.h"
 
 namespace ursula {
@@ -15,6 +16,9 @@ std::string namedTwice(const CLI::App& app);
 
 /// Throws UsageError if one of the options' values `written` is a file that the scenario names, such as its samples.
 void requireApart(const Scenario& scenario, std::initializer_list<std::string> written);
+
+/// The same for a mechanism's scenario and its model.
+void requireApart(const MechanismScenario& scenario, const std::string& written);
 
 /// Throws UsageError: results in `folder` would replace `read`.
 [[noreturn]] void refuseToReplace(const std::string& folder, const std::filesystem::path& read);

@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "model/instants.h"
 #include "model/scenario_files.h"
+#include "report/page/scenario_picture.h"
 #include "validation/mechanism/validate_mechanism.h"
 
 namespace ursula {
@@ -91,13 +92,34 @@ int inverseOfMechanism(const MechanismScenario& scenario, int samples, const std
   });
 }
 
-int checkMechanism(const MechanismScenario& scenario) {
+namespace {
+
+/// Makes the scenario's motion, and draws the machine, whether it can move or not.
+MechanismAlong pathWithPicture(const MechanismScenario& scenario, const std::string& file) {
+  const auto draw = [&](const MechanismPicture& machine, const char* when) {
+    if (!file.empty()) writePicture(file, picture(machine, scenario.name + when));
+  };
+  try {
+    MechanismAlong path(scenario);
+    draw(*makePicture(scenario, path, 121), ", t = 0");
+    return path;
+  } catch (const std::exception&) {
+    draw(*pictureAsRead(scenario), ", as its model places it: it cannot make the motion");
+    throw;
+  }
+}
+
+}  // namespace
+
+int checkMechanism(const MechanismScenario& scenario, const std::string& picture_file) {
   return along(scenario, [&] {
-    const MechanismAlong path(scenario);
+    const MechanismAlong path = pathWithPicture(scenario, picture_file);
     LoopWork work;
     for (const double t : equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples))
       static_cast<void>(path.motion().inverseDynamics(t, work));
-    const auto tell = [](const std::string& text) { writeOutput("-", withoutControls(text)); };
+    const auto tell = [on_stderr = picture_file == "-"](const std::string& text) {
+      on_stderr ? sayText(withoutControls(text)) : writeOutput("-", withoutControls(text));
+    };
     for (const std::string& text : scenario.read.warnings) tell(text + "\n");
     for (const std::string& text : scenario.read.assumptions) tell(text + "\n");
     if (!path.freedoms().idle.empty())

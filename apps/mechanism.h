@@ -18,8 +18,9 @@ std::optional<MechanismScenario> openMechanism(const std::filesystem::path& file
 /// Writes motion, efforts and joints at equally spaced instants, as CSV.
 int inverseOfMechanism(const MechanismScenario& scenario, int samples, const std::string& out);
 
-/// Checks freedoms and motion, and says what was assumed on reading.
-int checkMechanism(const MechanismScenario& scenario);
+/// Checks freedoms and motion, and says what was assumed on reading. Draws the machine at the start of its motion into
+/// `picture` if that is not empty; as the model places it if it cannot move.
+int checkMechanism(const MechanismScenario& scenario, const std::string& picture);
 
 /// Judges this program's solver, a command if there is one, or the efforts of a file if `torques` is not empty.
 ValidationResult judgeMechanism(const MechanismScenario& scenario, const std::string& torques,

@@ -9,6 +9,7 @@
 #include "model/check_catalogue.h"
 #include "report/files/report.h"
 #include "report/page/html_template.h"
+#include "report/text/mechanism_words.h"
 #include "report/text/quantity.h"
 #include "report/text/result_facts.h"
 #include "report/text/text.h"
@@ -72,18 +73,18 @@ std::string word(Verdict verdict) {
   return out;
 }
 
-HtmlValue item(const Check& check, const Decades& decades) {
-  const CheckRow* row = checkRow(check.name);
+HtmlValue item(const Check& check, const Decades& decades, const std::string& kind) {
+  const CheckWords words = checkWords(check.name, kind);
   const bool has_value = !std::isnan(check.value) || !std::isnan(check.limit);
   return {{"verdict", name(check.verdict)},
           {"open", check.verdict == Verdict::fail || check.verdict == Verdict::inconclusive},
           {"sign", sign(check.verdict)},
           {"word", word(check.verdict)},
-          {"title", checkTitle(check.name)},
+          {"title", words.title},
           {"bar", bar(check, decades)},
           {"value", has_value ? quantity(check.value, check.unit) : "no value"},
           {"limit", has_value ? quantity(check.limit, check.unit) : ""},
-          {"means", row == nullptr ? "" : row->proves},
+          {"means", words.proves},
           {"found", check.why},
           {"basis", formulaInPrint(check.basis)},
           {"in_full", inFull(check)}};
@@ -104,7 +105,7 @@ std::string counts(const std::vector<Check>& checks) {
   return text;
 }
 
-HtmlValue group(const std::string& title, std::vector<Check> checks, const Decades& decades) {
+HtmlValue group(const std::string& title, std::vector<Check> checks, const Decades& decades, const std::string& kind) {
   std::stable_sort(checks.begin(), checks.end(),
                    [](const Check& a, const Check& b) { return severity({a}) > severity({b}); });
   const int worst = severity(checks);
@@ -114,17 +115,17 @@ HtmlValue group(const std::string& title, std::vector<Check> checks, const Decad
           {"badge", verdictBadge(verdict)},
           {"title", title},
           {"counts", counts(checks)},
-          {"checks", listOf(checks, [&decades](const Check& check) { return item(check, decades); })}};
+          {"checks", listOf(checks, [&](const Check& check) { return item(check, decades, kind); })}};
 }
 
-HtmlValue notApplicable(const std::vector<Check>& checks) {
+HtmlValue notApplicable(const std::vector<Check>& checks, const std::string& kind) {
   std::map<std::string, std::string> names;  // keyed by reason
   std::size_t count = 0, reported = 0;
   for (const Check& check : checks) {
     if (check.verdict != Verdict::not_applicable) continue;
     const bool is_reported = check.reason == Reason::reported;
     std::string& of = names[is_reported ? "a tolerance is given: reported, not judged" : check.why];
-    of += (of.empty() ? "" : ", ") + checkTitle(check.name);
+    of += (of.empty() ? "" : ", ") + checkWords(check.name, kind).title;
     ++(is_reported ? reported : count);
   }
   if (count + reported == 0) return false;
@@ -147,7 +148,7 @@ std::string verdictBadge(Verdict verdict) {
   return badge(verdict, upper);
 }
 
-std::string checksList(const std::vector<Check>& checks) {
+std::string checksList(const std::vector<Check>& checks, const std::string& kind) {
   if (checks.empty()) return "<p>No check was made.</p>";
   const Decades decades = decadesOf(checks);
   std::vector<std::vector<Check>> by_group(checkGroups().size() + 1);
@@ -159,12 +160,12 @@ std::string checksList(const std::vector<Check>& checks) {
   std::stable_sort(order.begin(), order.end(),
                    [&by_group](std::size_t a, std::size_t b) { return severity(by_group[a]) > severity(by_group[b]); });
   const auto group_of = [&](std::size_t k) {
-    return group(k < checkGroups().size() ? checkGroups()[k] : "Further checks", by_group[k], decades);
+    return group(k < checkGroups().size() ? checkGroups()[k] : "Further checks", by_group[k], decades, kind);
   };
   return rendered(checks_html, {{"low", fmt::format("{:.0f}", decades.low)},
                                 {"high", fmt::format("{:.0f}", decades.high)},
                                 {"groups", listOf(order, group_of)},
-                                {"not_applicable", notApplicable(checks)}});
+                                {"not_applicable", notApplicable(checks, kind)}});
 }
 
 }  // namespace ursula::report

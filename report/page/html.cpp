@@ -10,6 +10,7 @@
 #include "report/page/picture.h"
 #include "report/page/plots.h"
 #include "report/page/sections.h"
+#include "report/text/mechanism_words.h"
 #include "report/text/quantity.h"
 #include "report/text/result_facts.h"
 #include "report/text/text.h"
@@ -25,11 +26,15 @@ namespace {
 std::string command(const ValidationResult& result) {
   const JudgedSubject& subject = result.subject;
   const bool is_function = subject.formulation == Formulation::external && subject.called_by == CalledBy::program;
-  if (result.asked == nullptr || result.asked->file.empty() || is_function) return "";
-  std::string out = "ursula validate " + shellWord(result.asked->file.filename().string());
+  const std::string file = result.asked != nullptr       ? result.asked->file.filename().string()
+                           : result.mechanism != nullptr ? result.mechanism->scenario_file
+                                                         : "";
+  if (file.empty() || is_function) return "";
+  std::string out = "ursula validate " + shellWord(file);
   if (subject.called_by == CalledBy::torques) out += " --torques " + shellWord(subject.name);
   if (!subject.map.empty()) out += " --map " + subject.map;
   if (subject.called_by == CalledBy::solver) out += " --solver " + shellWord(subject.name);
+  if (result.mechanism != nullptr) return out + result.mechanism->options;
   const EffortTolerance tolerance = result.asked->tolerance.value_or(EffortTolerance{});
   if (tolerance.relative > 0) out += fmt::format(" --rtol {}", tolerance.relative);
   if (tolerance.absolute > 0) out += fmt::format(" --atol {}", tolerance.absolute);
@@ -56,15 +61,30 @@ std::string sources(const std::vector<Plot>& plots) {
   return "";
 }
 
+std::string cardOf(const ValidationResult& result, const Picture* picture) {
+  if (picture != nullptr) return inputCard(*picture);
+  return result.mechanism != nullptr ? inputCard(*result.mechanism) : "";
+}
+
+std::string stageOf(const ValidationResult& result, const Picture* picture) {
+  if (picture != nullptr) return svgMachine(*picture);
+  return result.mechanism != nullptr ? svgMachine(*result.mechanism, motorsOff(result)) : "";
+}
+
+std::string lineOf(const ValidationResult& result, const Picture* picture) {
+  if (picture != nullptr) return machineLine(*picture);
+  return result.mechanism != nullptr ? mechanismLine(*result.mechanism) : "";
+}
+
 std::vector<PageSection> parts(const ValidationResult& result, const Picture* picture, const std::vector<Plot>& plots) {
-  return {{"checks", "Checks", checksList(result.checks)},
+  return {{"checks", "Checks", checksList(result.checks, result.kind)},
           {"errors", "Errors along the motion", figuresHtml(plots, PlotGroup::errors)},
           {"efforts", "Efforts", figuresHtml(plots, PlotGroup::efforts)},
           {"motion", "Motion", figuresHtml(plots, PlotGroup::motion)},
           {"reactions", "Reactions", figuresHtml(plots, PlotGroup::reactions)},
           {"numerics", "Numerics", figuresHtml(plots, PlotGroup::numerics)},
           {"statistics", "Error statistics", statisticsTable(result)},
-          {"input", "Input", picture == nullptr ? "" : inputCard(*picture)},
+          {"input", "Input", cardOf(result, picture)},
           {"findings", "Findings", factsTable("Facts that are not judged", printed(findingTexts(result)))},
           {"provenance", "Provenance", factsTable("The sources of this result", result.provenance, command(result))}};
 }
@@ -86,11 +106,11 @@ std::string reportHtml(const ValidationResult& result, Place place) {
                                 {"sentence", sentence(result)},
                                 {"motors", inWords(motors)},
                                 {"why", motors.empty() ? inWords(detail(result)) : ""},
-                                {"machine", picture == nullptr ? "" : machineLine(*picture)},
+                                {"machine", lineOf(result, picture.get())},
                                 {"figures", inWords(keyFiguresHtml(keyFigures(result)))},
                                 {"reason", powersInPrint(reason(result.verdict, result.checks))},
                                 {"sources", inWords(sources(charts))},
-                                {"stage", picture == nullptr ? "" : svgMachine(*picture)},
+                                {"stage", stageOf(result, picture.get())},
                                 {"in_suite", place == Place::in_suite},
                                 {"links", linksHtml(sections)},
                                 {"sections", sectionsHtml(sections)},

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report/page/html_template.h"
+#include "report/text/mechanism_words.h"
 #include "report/text/quantity.h"
 #include "report/text/text.h"
 #include "validation/verdict/worst_share.h"
@@ -32,7 +33,8 @@ MotorDeviation deviationOf(int motor, const std::vector<double>& t, const std::v
   double off_expected = 0, expected_squared = 0, sum = 0, squared = 0, count = 0;
   for (std::size_t k = 0; k < t.size(); ++k) {
     const double off = given[k] - expected[k];
-    if (k == 0 || exceeds(std::abs(off), out.largest)) out.largest = std::abs(off), out.t = t[k];
+    if (k == 0 || exceeds(std::abs(off), out.largest))
+      out.largest = std::abs(off), out.t = t[k], out.given = given[k], out.expected = expected[k];
     if (!std::isfinite(off)) continue;
     ++count;
     off_expected += off * expected[k];
@@ -86,8 +88,18 @@ std::string patternText(const MotorDeviation& motor) {
                      prettyUnit(motor.unit));
 }
 
-HtmlValue motorRow(const MotorDeviation& motor) {
-  return {{"motor", motor.motor + 1},
+/// With as many digits as tell the two apart.
+std::string effortText(double value, const MotorDeviation& motor) {
+  return fmt::format("{:.{}g} {}", value,
+                     digitsToTell(std::min(motor.given, motor.expected), std::max(motor.given, motor.expected)),
+                     prettyUnit(motor.unit));
+}
+
+HtmlValue motorRow(const MotorDeviation& motor, const std::vector<std::string>& names) {
+  return {{"motor", motorName(names, static_cast<std::size_t>(motor.motor))},
+          {"named", !names.empty()},
+          {"given", effortText(motor.given, motor)},
+          {"expected", effortText(motor.expected, motor)},
           {"right", motor.right},
           {"largest", quantity(motor.largest, motor.unit)},
           {"share", shareOfLargest(motor.share)},
@@ -110,8 +122,12 @@ std::string motorsTable(const ValidationResult& result) {
   const bool patterns = std::all_of(motors.begin(), motors.end(), [](const MotorDeviation& motor) {
     return motor.right || !patternText(motor).empty();
   });
-  return rendered(motors_html,
-                  {{"patterns", patterns}, {"columns", patterns ? 4 : 3}, {"motors", listOf(motors, motorRow)}});
+  const std::vector<std::string> names = motorNames(result);
+  const auto row = [&names](const MotorDeviation& motor) { return motorRow(motor, names); };
+  return rendered(motors_html, {{"patterns", patterns},
+                                {"named", !names.empty()},
+                                {"columns", (patterns ? 4 : 3) + (names.empty() ? 0 : 2)},
+                                {"motors", listOf(motors, row)}});
 }
 
 std::vector<MotorDeviation> motorsOff(const ValidationResult& result) {

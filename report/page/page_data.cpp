@@ -91,9 +91,12 @@ std::string chartData(const std::string& title, const std::vector<Plot>& plots) 
 }
 
 std::string pageData(const ValidationResult& result, const Picture* picture, const std::vector<Plot>& plots) {
+  const Json machine = picture != nullptr            ? machineJson(*picture, result)
+                       : result.mechanism != nullptr ? machineJson(*result.mechanism, result)
+                                                     : Json();
   return inScript({{"scenario", result.scenario},
                    {"events", eventsJson(result)},
-                   {"machine", picture != nullptr ? machineJson(*picture, result) : Json()},
+                   {"machine", machine},
                    {"plots", plotsJson(plots)}});
 }
 

@@ -1,6 +1,7 @@
 #include "report/page/plots.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "report/text/quantity.h"
 
@@ -24,7 +25,8 @@ std::vector<double> picked(const std::vector<double>& values, const std::vector<
   return result;
 }
 
-TimePlots::TimePlots(const TimeSeries& series, std::vector<Plot>& plots) : series_(series), plots_(plots) {
+TimePlots::TimePlots(const TimeSeries& series, std::vector<Plot>& plots, std::vector<std::string> names)
+    : series_(series), plots_(plots), names_(std::move(names)) {
   const std::vector<double>* t = series.find("t_s");
   if (t == nullptr) return;
   rows_ = ascending(*t);
@@ -58,10 +60,20 @@ void TimePlots::addValues(Plot& plot, const std::vector<double>& values, Line li
   plot.lines.push_back(std::move(line));
 }
 
+std::string TimePlots::label(const std::string& symbol, const std::string& index) const {
+  const auto k = static_cast<std::size_t>(std::stoul(index));
+  return k >= 1 && k <= names_.size() ? names_[k - 1] : symbol + subscript(index);
+}
+
+std::string TimePlots::motor(const std::string& index) const {
+  const auto k = static_cast<std::size_t>(std::stoul(index));
+  return k >= 1 && k <= names_.size() ? names_[k - 1] : "Motor " + index;
+}
+
 void TimePlots::addIndexed(Plot& plot, const std::string& quantity, const std::string& symbol, bool ghost) const {
   int color = 0;
   for (const Indexed& column : indexed(series_, quantity)) {
-    const std::string label = symbol + subscript(column.index) + (ghost ? " expected" : "");
+    const std::string label = this->label(symbol, column.index) + (ghost ? " expected" : "");
     addValues(plot, *column.values,
               {label, prettyUnit(column.unit), color++, ghost ? Stroke::ghost : Stroke::line, {}});
   }

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "model/mechanism_picture.h"
 #include "model/scenario.h"
+#include "report/text/mechanism_words.h"
 #include "report/text/result_facts.h"
 #include "report/text/text.h"
 #include "validation/verdict/effort_words.h"
@@ -100,7 +102,9 @@ std::vector<Plot> plots(const ValidationResult& result) {
   std::vector<Plot> plots;
   for (const Curve& curve : result.curves)
     if (!curve.lines.empty() && !curve.x.empty()) plots.push_back(curvePlot(curve));
-  addSeriesPlots(result.timeseries, motorsOf(result), result.deviation ? result.deviation->allowed : 0, plots);
+  const MechanismPicture* mechanism = result.mechanism.get();
+  addSeriesPlots(result.timeseries, motorsOf(result), result.deviation ? result.deviation->allowed : 0, plots,
+                 motorNames(result), mechanism == nullptr ? "" : mechanism->bodies[mechanism->output].name);
   std::stable_sort(plots.begin(), plots.end(), [](const Plot& a, const Plot& b) { return a.group < b.group; });
   for (Plot& plot : plots) sayEfforts(result.effort, plot);
   return plots;

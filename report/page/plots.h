@@ -80,7 +80,8 @@ std::vector<double> picked(const std::vector<double>& values, const std::vector<
 /// Builds charts over time from the columns of one series.
 class TimePlots {
  public:
-  TimePlots(const TimeSeries& series, std::vector<Plot>& plots);
+  /// `names` are the motors' in the order of efforts; without them they have numbers.
+  TimePlots(const TimeSeries& series, std::vector<Plot>& plots, std::vector<std::string> names = {});
 
   const TimeSeries& series() const { return series_; }
   bool empty() const { return rows_.empty(); }
@@ -91,7 +92,11 @@ class TimePlots {
   /// Adds a column times `factor`, if it exists.
   void addColumn(Plot& plot, const std::string& column, Line line, double factor = 1) const;
   void addValues(Plot& plot, const std::vector<double>& values, Line line) const;
-  /// Adds every leg's column of this quantity.
+  /// Returns "τ₁" for "1", or the motor's name.
+  std::string label(const std::string& symbol, const std::string& index) const;
+  /// Returns "Motor 1" for "1", or the motor's name.
+  std::string motor(const std::string& index) const;
+  /// Adds every leg's or motor's column of this quantity.
   void addIndexed(Plot& plot, const std::string& quantity, const std::string& symbol, bool ghost = false) const;
   /// Adds the chart to the list if it has lines.
   void keep(Plot plot);
@@ -101,14 +106,16 @@ class TimePlots {
   std::vector<Plot>& plots_;
   std::vector<std::size_t> rows_;
   std::vector<double> t_;
+  std::vector<std::string> names_;
 };
 
 /// The validated machine's motors; otherwise the paper's.
 Motors motorsOf(const ValidationResult& result);
 
 /// Adds the charts of the time series. Its efforts are those of `motors`; `allowed` is a user's tolerance in their
-/// unit, 0 if there is none.
-void addSeriesPlots(const TimeSeries& series, const Motors& motors, double allowed, std::vector<Plot>& plots);
+/// unit, 0 if there is none. `names` are the motors' of a mechanism, `output` that of the body whose path is shown.
+void addSeriesPlots(const TimeSeries& series, const Motors& motors, double allowed, std::vector<Plot>& plots,
+                    const std::vector<std::string>& names = {}, const std::string& output = "");
 
 /// "₁" for "1".
 std::string subscript(const std::string& index);

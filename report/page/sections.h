@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "model/mechanism_picture.h"
 #include "report/page/picture.h"
 #include "report/page/plots.h"
 #include "validation/verdict/result.h"
@@ -17,11 +18,13 @@ std::string badge(Verdict verdict, const std::string& words);
 
 /// Returns the checks in groups; groups with checks that did not pass come first and are unfolded. Each check has a bar
 /// of value over limit on a logarithmic scale. Folded below are its meaning, its result and the origin of its limit.
-/// Needs no script. `cause`, the likely cause, appears elsewhere and is removed from the results.
-std::string checksList(const std::vector<Check>& checks);
+/// Needs no script. `kind` is that of the machine, whose words are used.
+std::string checksList(const std::vector<Check>& checks, const std::string& kind = "manipulator");
 
 /// Returns machine, load and motion as tables.
 std::string inputCard(const Picture& picture);
+/// The same of a mechanism; what was odd on reading its model comes first.
+std::string inputCard(const MechanismPicture& picture);
 
 /// Returns the machine and its motion in one line: "six U–R–S legs under a platform of 500 kg · helix of 3 s".
 std::string machineLine(const Picture& picture);
@@ -35,18 +38,22 @@ std::string svgMachine(const Picture& picture);
 
 /// Deviation of one motor's efforts.
 struct MotorDeviation {
-  int motor = 0;                 ///< 0-based
-  std::string unit = "Nm";       ///< unit of its efforts, as in columns
-  double largest = 0, t = 0;     ///< largest deviation in that unit, and its instant, s
-  double share = 0;              ///< its share of the largest expected effort of that unit; 0 if there is none
-  bool right = false;            ///< whether it is within the derived limit at every instant
-  std::optional<double> factor;  ///< a factor that alone explains all but a hundredth of the deviation's norm
-  std::optional<double> offset;  ///< an offset that does so, in that unit
+  int motor = 0;                   ///< 0-based
+  std::string unit = "Nm";         ///< unit of its efforts, as in columns
+  double largest = 0, t = 0;       ///< largest deviation in that unit, and its instant, s
+  double given = 0, expected = 0;  ///< there
+  double share = 0;                ///< its share of the largest expected effort of that unit; 0 if there is none
+  bool right = false;              ///< whether it is within the derived limit at every instant
+  std::optional<double> factor;    ///< a factor that alone explains all but a hundredth of the deviation's norm
+  std::optional<double> offset;    ///< an offset that does so, in that unit
 };
 
 /// Returns the deviation of every motor from the columns of the subject's and Simbody's efforts. Empty if no check says
 /// that efforts are wrong, or if the columns are missing.
 std::vector<MotorDeviation> motorsOff(const ValidationResult& result);
+
+/// The same of a mechanism, with its motors' names; those that are wrong are marked.
+std::string svgMachine(const MechanismPicture& picture, const std::vector<MotorDeviation>& motors);
 
 /// "1.003", or "(1 + 10⁻⁶)" where few digits would hide the difference.
 std::string factorText(double factor);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <algorithm>
+#include <tuple>
 
 #include "report/page/html_template.h"
 #include "report/page/plots.h"
@@ -54,7 +55,7 @@ void addErrors(TimePlots& time, double allowed) {
     for (std::size_t k = 0; k < efforts.size(); ++k)
       time.addValues(
           deviation, differences(*efforts[k].values, *expected[k].values, true),
-          {"τ" + subscript(efforts[k].index), prettyUnit(efforts[k].unit), static_cast<int>(k), Stroke::line, {}});
+          {time.label("τ", efforts[k].index), prettyUnit(efforts[k].unit), static_cast<int>(k), Stroke::line, {}});
     if (allowed > 0 || indexed(series, "limit_tau").empty()) addEffortLimit(time, deviation, {}, allowed, 1);
     time.keep(std::move(deviation));
   }
@@ -79,6 +80,8 @@ void addErrors(TimePlots& time, double allowed) {
 /// The rates of driven coordinates; empty if one is missing.
 std::vector<const std::vector<double>*> drivenRates(const TimeSeries& series, const Motors& motors) {
   std::vector<const std::vector<double>*> out;
+  for (const Indexed& rate : indexed(series, "qdot")) out.push_back(rate.values);
+  if (!out.empty()) return out;
   for (const Motor& motor : motors)
     out.push_back(series.find(
         fmt::format("{}dot_{}_{}", nameOf(motor.coordinate), motor.leg + 1, motor.slides() ? "m_s" : "rad_s")));
@@ -98,7 +101,7 @@ void addPower(TimePlots& time, const std::vector<Indexed>& efforts, const Motors
       product.push_back((*efforts[k].values)[row] * (*rates[k])[row]);
       sum[row] += product.back();
     }
-    time.addValues(power, product, {"P" + subscript(efforts[k].index), "W", static_cast<int>(k), Stroke::line, {}});
+    time.addValues(power, product, {time.label("P", efforts[k].index), "W", static_cast<int>(k), Stroke::line, {}});
   }
   time.addValues(power, sum, {"all", "W", 6, Stroke::ghost, {}});
   time.keep(std::move(power));
@@ -115,10 +118,10 @@ void addEfforts(TimePlots& time, const Motors& motors, double allowed) {
   if (efforts.size() != expected.size()) return;
   for (std::size_t k = 0; k < efforts.size(); ++k) {
     const std::string unit = prettyUnit(efforts[k].unit);
-    Plot motor = time.plot(PlotGroup::efforts, "Motor " + efforts[k].index + ": effort less expected",
+    Plot motor = time.plot(PlotGroup::efforts, time.motor(efforts[k].index) + ": effort less expected",
                            fmt::format("deviation ({})", unit));
     time.addValues(motor, differences(*efforts[k].values, *expected[k].values, false),
-                   {"τ" + subscript(efforts[k].index) + " − expected", unit, static_cast<int>(k), Stroke::line, {}});
+                   {time.label("τ", efforts[k].index) + " − expected", unit, static_cast<int>(k), Stroke::line, {}});
     for (const double side : {1.0, -1.0}) addEffortLimit(time, motor, efforts[k], allowed, side);
     time.keep(std::move(motor));
   }
@@ -158,6 +161,23 @@ void addMotion(TimePlots& time) {
   }
 }
 
+/// The motors' coordinates and rates, and the path of the output body.
+void addMotorMotion(TimePlots& time, const std::string& output) {
+  for (const auto& [column, title, what] :
+       {std::tuple("q", "Motors' coordinates", "coordinate"), {"qdot", "Motors' rates", "rate"}}) {
+    const std::vector<Indexed> columns = indexed(time.series(), column);
+    if (columns.empty()) continue;
+    Plot plot = time.plot(PlotGroup::motion, title, effortLabel(what, columns));
+    time.addIndexed(plot, column, "q");
+    time.keep(std::move(plot));
+  }
+  Plot path = time.plot(PlotGroup::motion, "Position of " + output, "position (m)");
+  const char* const axes[] = {"x", "y", "z"};
+  for (int i = 0; i < 3; ++i)
+    time.addColumn(path, std::string("output_") + axes[i] + "_m", {axes[i], "m", i, Stroke::line, {}});
+  time.keep(std::move(path));
+}
+
 /// Magnitudes of vectors `reaction_fA_x_1_N`, ….
 void addReactions(TimePlots& time) {
   struct Reaction {
@@ -188,12 +208,14 @@ void addReactions(TimePlots& time) {
 
 }  // namespace
 
-void addSeriesPlots(const TimeSeries& series, const Motors& motors, double allowed, std::vector<Plot>& plots) {
-  TimePlots time(series, plots);
+void addSeriesPlots(const TimeSeries& series, const Motors& motors, double allowed, std::vector<Plot>& plots,
+                    const std::vector<std::string>& names, const std::string& output) {
+  TimePlots time(series, plots, names);
   if (time.empty()) return;
   addErrors(time, allowed);
   addEfforts(time, motors, allowed);
   addMotion(time);
+  addMotorMotion(time, output);
   addReactions(time);
 }
 

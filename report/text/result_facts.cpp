@@ -9,9 +9,11 @@
 #include <string_view>
 
 #include "model/check_catalogue.h"
+#include "model/mechanism_picture.h"
 #include "model/scenario.h"
 #include "model/trajectories/trajectory_kinds.h"
 #include "report/files/report.h"
+#include "report/text/mechanism_words.h"
 #include "report/text/quantity.h"
 #include "validation/verdict/effort_words.h"
 
@@ -85,8 +87,9 @@ std::string agrees(const ResultFacts& facts) {
                             : fmt::format("; {} independent formulations agree {}", inWords(facts.engines), share);
 }
 
-/// Returns ". Likely cause: platform mass 303 ± 1 kg". A share that lacks only rounding becomes "all of it".
-std::string inPrint(const CauseWords& words) {
+/// Returns ". Likely cause: platform mass 303 ± 1 kg". A share that lacks only rounding becomes "all of it". Words that
+/// claim no cause follow after `mark`.
+std::string inPrint(const CauseWords& words, const char* mark) {
   std::string cause = powersInPrint(words.cause);
   for (const auto& [from, to] :
        {std::pair<std::string, std::string>{" +- ", " ± "},
@@ -96,7 +99,7 @@ std::string inPrint(const CauseWords& words) {
   switch (words.claim) {
     case CauseClaim::none:
     case CauseClaim::interval:
-      return ": " + cause;
+      return mark + (*mark == '.' ? capital(cause) : cause);
     case CauseClaim::part:
       return ". " + capital(cause);
     case CauseClaim::likely:
@@ -106,14 +109,17 @@ std::string inPrint(const CauseWords& words) {
 }
 
 std::string failed(const ValidationResult& result, const ResultFacts& facts) {
-  if (!facts.wrong.cause.empty()) return facts.subject + " are wrong" + inPrint(facts.wrong) + ".";
+  if (const std::string worst = worstMotor(result); !worst.empty())
+    return fmt::format("{} are wrong: {}{}.", facts.subject, worst,
+                       facts.wrong.cause.empty() ? "" : inPrint(facts.wrong, ". "));
+  if (!facts.wrong.cause.empty()) return facts.subject + " are wrong" + inPrint(facts.wrong, ": ") + ".";
   const Check* worst = worstCheck(result.checks);
   if (worst == nullptr) return "No check was made.";
   const std::string numbers = std::isfinite(worst->value) && std::isfinite(worst->limit)
                                   ? fmt::format("off by {}, where {} is the limit", quantity(worst->value, worst->unit),
                                                 quantity(worst->limit, worst->unit))
                                   : worst->why;
-  const std::string title = inEffortWords(result.effort, checkTitle(worst->name));
+  const std::string title = inEffortWords(result.effort, checkWords(worst->name, result.kind).title);
   if (onlyOddEngineFails(result))
     return fmt::format("The odd one out is {}: {} and all other formulations agree. {}: {}.", inWords(result.odd_one),
                        lower(facts.subject), title, numbers);
@@ -152,7 +158,7 @@ ResultFacts factsOf(const ValidationResult& result) {
   ResultFacts out;
   out.subject = ofWhom(result.subject, result.effort);
   const std::string motion = result.asked != nullptr ? result.asked->trajectory->kind() : "";
-  const TrajectoryKind* kind = trajectoryKind(motion);
+  const TrajectoryKind* kind = trajectoryKind(motion);  // motors' motions have no words of their own
   out.motion = kind != nullptr ? kind->words : motion.empty() ? "the motion" : "the motion through " + motion;
   const std::vector<double>* t = result.timeseries.find("t_s");
   out.duration = t == nullptr || t->empty() ? none : t->back();

@@ -8,6 +8,7 @@
 
 #include "report/page/html_template.h"
 #include "report/page/plots.h"
+#include "report/text/mechanism_words.h"
 #include "report/text/quantity.h"
 #include "report/text/text.h"
 
@@ -91,11 +92,13 @@ std::string statisticsTable(const ValidationResult& result) {
     if (const std::vector<double>* values = series.find(column))
       addRow(what, unit, *t, *values, findCheck(result.checks, check), rows);
   }
+  const std::vector<std::string> names = motorNames(result);
   const std::vector<Indexed> efforts = indexed(series, "tau"), expected = indexed(series, "simbody_tau");
   for (std::size_t k = 0; k < efforts.size() && k < expected.size(); ++k) {
     std::vector<double> off;
     for (std::size_t i = 0; i < t->size(); ++i) off.push_back((*efforts[k].values)[i] - (*expected[k].values)[i]);
-    addRow("Effort of motor " + efforts[k].index, prettyUnit(efforts[k].unit), *t, off, nullptr, rows);
+    addRow("Effort of " + (names.empty() ? "motor " + efforts[k].index : motorName(names, k)),
+           prettyUnit(efforts[k].unit), *t, off, nullptr, rows);
   }
   return rows.empty() ? "" : rendered(statistics_html, {{"rows", rows}});
 }

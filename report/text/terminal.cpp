@@ -9,6 +9,7 @@
 #include "model/check_catalogue.h"
 #include "report/files/written_files.h"
 #include "report/page/sections.h"
+#include "report/text/mechanism_words.h"
 #include "report/text/quantity.h"
 #include "report/text/result_facts.h"
 #include "report/text/text.h"
@@ -132,14 +133,17 @@ std::string notApplicableText(const std::vector<Check>& checks) {
 }
 
 /// The deviation of each motor as a table, because six of them in one line are unreadable.
-std::string motorsText(const std::vector<MotorDeviation>& motors) {
+std::string motorsText(const std::vector<MotorDeviation>& motors, const std::vector<std::string>& names) {
   std::vector<std::vector<std::string>> rows = {{"motor", "off by", "at t", "factor", "offset"}};
   for (const MotorDeviation& motor : motors)
-    rows.push_back({std::to_string(motor.motor + 1), fmt::format("{:.3g} {}", motor.largest, prettyUnit(motor.unit)),
-                    fmt::format("{:.4g} s", motor.t), motor.factor ? factorText(*motor.factor) : "",
+    rows.push_back({withoutControls(motorName(names, static_cast<std::size_t>(motor.motor))),
+                    fmt::format("{:.3g} {}", motor.largest, prettyUnit(motor.unit)), fmt::format("{:.4g} s", motor.t),
+                    motor.factor ? factorText(*motor.factor) : "",
                     motor.offset ? fmt::format("{:.6g} {}", *motor.offset, prettyUnit(motor.unit)) : ""});
+  std::vector<Align> columns(5, Align::right);
+  if (!names.empty()) columns[0] = Align::left;
   std::string out;
-  for (const std::string& line : alignedRows(rows, std::vector<Align>(5, Align::right))) out += "  " + line + "\n";
+  for (const std::string& line : alignedRows(rows, columns)) out += "  " + line + "\n";
   return out;
 }
 
@@ -176,7 +180,9 @@ std::string reasonsText(const ValidationResult& result) {
   std::string out;
   if (result.replay_error && replayIsOpen(result.checks)) out += replayText(*result.replay_error, result);
   if (const std::vector<MotorDeviation> motors = motorsOff(result); !motors.empty())
-    out += result.effort + "s against the expected ones:\n" + motorsText(motors);
+    out += result.effort + "s against the expected ones:\n" + motorsText(motors, motorNames(result));
+  if (const std::string worst = worstMotor(result); !worst.empty())
+    out += fmt::format("worst: {}\n", withoutControls(worst));
   if (!result.cause_words.cause.empty()) out += causeText(result.cause_words) + "\n";
   return out.empty() ? "" : "\n" + out;
 }
@@ -217,8 +223,9 @@ std::string validationText(const ValidationResult& result, bool coloured) {
 std::string quietText(const ValidationResult& result, bool coloured) {
   const SuiteEntry entry = suiteEntry(result, "");
   const CauseWords& words = result.cause_words;
-  return quietHead(entry, coloured) + (words.cause.empty() ? "" : "  " + causeText(words) + "\n") +
-         openChecks(entry.checks);
+  const std::string worst = worstMotor(result);
+  return quietHead(entry, coloured) + (worst.empty() ? "" : "  " + withoutControls(worst) + "\n") +
+         (words.cause.empty() ? "" : "  " + causeText(words) + "\n") + openChecks(entry.checks);
 }
 
 std::string quietText(const SuiteEntry& entry, bool coloured) {

@@ -1,6 +1,7 @@
 import { AxesHelper, BufferGeometry, EdgesGeometry, Group, Line, LineBasicMaterial, LineSegments, Mesh, Vector3 } from "three";
 import { ghostLegs } from "./ghost_legs.js";
-import { plate, points } from "./machine.js";
+import { jointsOf, plate, points } from "./machine.js";
+import * as mechanism from "./mechanism.js";
 import { aim, arrow, ball, between, paint, rod } from "./shapes.js";
 import { color, lineColor } from "./theme.js";
 import { largestVector, numbersAt, quaternionAt, rotation, vectorAt } from "./tracks.js";
@@ -47,23 +48,23 @@ export function errorLayer(machine, size) {
   return { group, update, magnify };
 }
 
+const allJoints = (machine) => (machine.bodies ? mechanism.jointsOf(machine) : jointsOf(machine));
+
 /** Every joint's axes; driven ones are longer. */
 export function axesLayer(machine, size) {
   const group = new Group();
   const rods = [];
-  machine.legs.forEach((leg, k) => {
-    for (const joint of leg.joints) {
-      joint.axes.forEach((axis, i) => {
-        const mesh = rod(0.003 * size, paint(lineColor(k)));
-        rods.push({ mesh, joint, axis, half: (joint.driven && i === 0 ? 0.22 : 0.12) * size });
-        group.add(mesh);
-      });
-    }
-  });
+  for (const joint of allJoints(machine)) {
+    joint.axes.forEach((axis, i) => {
+      const mesh = rod(0.003 * size, paint(lineColor(joint.color)));
+      rods.push({ mesh, joint, axis, half: (joint.driven && i === 0 ? 0.22 : 0.12) * size });
+      group.add(mesh);
+    });
+  }
   const update = (place) => {
     for (const { mesh, joint, axis, half } of rods) {
-      const at = vectorAt(joint.at, place);
-      const along = vectorAt(axis, place).normalize().multiplyScalar(half);
+      const at = joint.at(place);
+      const along = axis(place).multiplyScalar(half);
       between(mesh, at.clone().sub(along), at.clone().add(along));
     }
   };
@@ -84,18 +85,18 @@ export function framesLayer(machine, size) {
 
 /** Each motor's effort as an arrow along its axis; for a torque it is the moment vector. */
 export function effortsLayer(machine, size) {
-  const joints = machine.legs.flatMap((leg, k) => leg.joints.filter((joint) => joint.driven).map((joint) => ({ joint, k })));
+  const joints = allJoints(machine).filter((joint) => joint.driven);
   const count = joints.length;
   if (count === 0 || machine.efforts.length === 0 || machine.efforts.length % count !== 0) return null;
   const largest = machine.efforts.reduce((most, value) => Math.max(most, Math.abs(value ?? 0)), 0);
   const group = new Group();
-  const arrows = joints.map(({ k }) => arrow(0.012 * size, paint(lineColor(k))));
+  const arrows = joints.map((joint) => arrow(0.012 * size, paint(lineColor(joint.color))));
   group.add(...arrows);
   const update = (place) => {
     const efforts = numbersAt(machine.efforts, place, count);
-    joints.forEach(({ joint }, i) => {
-      const length = largest > 0 ? (-0.55 * size * efforts[i]) / largest : 0; // efforts are positive about the axis reversed
-      aim(arrows[i], vectorAt(joint.at, place), vectorAt(joint.axes[0], place).normalize().multiplyScalar(length || 0));
+    joints.forEach((joint, i) => {
+      const length = largest > 0 ? (0.55 * joint.sense * size * efforts[i]) / largest : 0;
+      aim(arrows[i], joint.at(place), joint.axes[0](place).multiplyScalar(length || 0));
     });
   };
   return { group, update };

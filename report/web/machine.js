@@ -43,6 +43,18 @@ export function extent(machine, size) {
   return [...all(linkEnds(machine), joint, joint), ...all(rails, 0.02, 0.02), ...all(points(machine.p), 0.016, 0.016), ...tags];
 }
 
+/** The joints of all legs as layers.js needs them. Efforts are positive about the axis reversed. */
+export const jointsOf = (machine) =>
+  machine.legs.flatMap((leg, k) =>
+    leg.joints.map((joint) => ({
+      driven: joint.driven,
+      color: k,
+      sense: -1,
+      at: (place) => vectorAt(joint.at, place),
+      axes: joint.axes.map((axis) => (place) => vectorAt(axis, place).normalize()),
+    })),
+  );
+
 function makeJoint(joint, size, material) {
   const group = new Group();
   if (joint.axes.length === 0) group.add(ball(0.022 * size, material));

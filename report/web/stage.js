@@ -2,7 +2,8 @@ import { AmbientLight, Box3, DirectionalLight, Group, PerspectiveCamera, Scene, 
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { eyeFor } from "./fit.js";
 import { axesLayer, effortsLayer, errorLayer, framesLayer, reactionsLayer } from "./layers.js";
-import { extent, linkEnds, makeMachine } from "./machine.js";
+import * as manipulator from "./machine.js";
+import * as mechanism from "./mechanism.js";
 import { weakLayer } from "./weak_layer.js";
 import { largestVector, placeAt, resolved } from "./tracks.js";
 
@@ -16,9 +17,12 @@ const makers = [
 ];
 /** The page's own word for what a layer draws: a machine of sliding motors has forces. */
 const headingOf = (key) => document.querySelector(`#${key} > h2`)?.textContent.toLowerCase();
-const view = new Vector3(-0.75, 1.15, -0.5).normalize();
+const usual = new Vector3(-0.75, 1.15, -0.5).normalize();
 const slope = Math.tan((17.5 * Math.PI) / 180); // of half the camera's angle
 const filled = 0.97; // share of the stage that the machine takes
+
+/** What draws a machine: one of legs and a platform, or one of any bodies. */
+const drawing = (machine) => (machine.bodies ? mechanism : manipulator);
 
 /** Powers of ten that make the largest error visible, the default first; 1 if it is visible without. */
 function factorsFor(machine, size) {
@@ -49,14 +53,14 @@ class Stage {
   #asked = false;
 
   constructor(host, machine, clock, renderer) {
-    const box = new Box3().setFromPoints(linkEnds(machine));
+    const box = new Box3().setFromPoints(drawing(machine).linkEnds(machine));
     this.#machine = machine;
     this.#size = box.getSize(new Vector3()).length() / 1.8;
     this.middle = box.getCenter(new Vector3());
     this.clock = clock;
     this.host = host;
     this.renderer = renderer;
-    this.#things = extent(machine, this.#size);
+    this.#things = drawing(machine).extent(machine, this.#size);
     this.camera = new PerspectiveCamera((360 / Math.PI) * Math.atan(slope), 1, 0.01 * this.#size, 50 * this.#size);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, renderer.domElement);
@@ -73,7 +77,7 @@ class Stage {
   /** Builds everything again in the colours of the style sheet. */
   repaint() {
     this.scene = new Scene();
-    this.drawn = makeMachine(this.#machine, this.#size);
+    this.drawn = drawing(this.#machine).makeMachine(this.#machine, this.#size);
     this.scene.add(lights(), this.drawn.group);
     for (const [key, , , make] of makers) {
       const layer = make(this.#machine, this.#size);
@@ -98,7 +102,7 @@ class Stage {
   }
 
   resetView() {
-    this.#look(view);
+    this.#look(this.#machine.view ? new Vector3(...this.#machine.view) : usual);
   }
 
   /** Looks along `forward`, so that all of machine, labels and path is seen. */

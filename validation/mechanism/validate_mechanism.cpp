@@ -15,6 +15,11 @@
 namespace ursula {
 namespace {
 
+/// Instants of a picture that are smooth to the eye; fewer for many bodies, because a page holds all of their poses.
+int instantsOfPicture(const Mechanism& mechanism) {
+  return std::clamp(4000 / static_cast<int>(mechanism.bodies().size() + 1), 121, 301);
+}
+
 std::string listOf(const std::vector<std::string>& names) {
   std::string out;
   for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
@@ -218,6 +223,7 @@ ValidationResult validateMechanism(const MechanismScenario& scenario, const Mech
       simbodyEngine(SimbodyMechanism::Tree::of_file, "torque.twin", "Simbody, the file's closures cut")};
   for (MakeMechanismEngine& each : partMechanismEngines()) makers.push_back(std::move(each));
   ValidationResult result = emptyResult(scenario, subject.about);
+  result.mechanism = makePicture(scenario, along, instantsOfPicture(*scenario.mechanism));
   MechanismEvidence evidence;
   evidence.scenario = &scenario;
   try {

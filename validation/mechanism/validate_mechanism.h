@@ -1,8 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
+#include "model/mechanism_picture.h"
 #include "validation/mechanism/mechanism_evidence.h"
 #include "validation/verdict/result.h"
 
@@ -33,6 +35,12 @@ class MechanismAlong {
   LoopFreedoms freedoms_;
   std::unique_ptr<LoopMotion> motion_;
 };
+
+/// Returns the machine at so many equally spaced instants of its motion, at least two.
+std::shared_ptr<const MechanismPicture> makePicture(const MechanismScenario& scenario, const MechanismAlong& along,
+                                                    int instants);
+/// Returns the machine as its model file places it; for one that has too few motors or cannot move.
+std::shared_ptr<const MechanismPicture> pictureAsRead(const MechanismScenario& scenario);
 
 /// Reads `t_s` and one column of efforts for each motor, by number (`tau_1_Nm`, `tau_2_N`), by the joint's name, or as
 /// `map` says ("tau_1_Nm" and the column's own name). Throws CsvError,

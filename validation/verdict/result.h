@@ -69,6 +69,7 @@ struct CauseWords {
   CauseClaim claim = CauseClaim::likely;
 };
 
+struct MechanismPicture;
 struct Scenario;
 struct JudgedValue;
 struct WorstShare;
@@ -322,6 +323,7 @@ struct ValidationResult {
   std::vector<Curve> curves;
   std::vector<Event> events;              ///< restarts and stops of replays, poses nearest to a limit
   std::shared_ptr<const Scenario> asked;  ///< the validated scenario; null in a result that was read or constructed
+  std::shared_ptr<const MechanismPicture> mechanism;  ///< the machine along its motion; null for manipulators
 };
 
 }  // namespace ursula
