@@ -29,7 +29,7 @@ struct DrawingArea {
 };
 /// Returns SVG elements: the machine at the start of its motion, seen along `forward`, with the output's path and the
 /// motors' names; `wrong` are the motors to be marked. Classes: base, link c0 to c6, platform, rail, joint, driven,
-/// path, motor, wrong.
+/// path, motor, wrong; thin and plate.
 std::string drawn(const MechanismPicture& picture, const Vector3d& forward, const DrawingArea& area,
                   const std::vector<bool>& wrong = {});
 /// Returns how many px a metre has there.

@@ -14,8 +14,8 @@ constexpr double side = 480, above = 44;  // px
 
 constexpr const char* sheet_style = R"(<style>
 text { font: 13px sans-serif; fill: #333 } .caption { text-anchor: middle; font-size: 14px } .motor { font-weight: bold; stroke: #fff; stroke-width: 4; paint-order: stroke }
-path { fill: none; stroke-linecap: round; stroke-linejoin: round } .base { stroke: #666; stroke-width: 2; fill: #6662 } .base.bar { stroke-dasharray: 2 5; stroke-width: 4 }
-.platform { stroke: #06c; stroke-width: 2; fill: #06c3 } .platform.bar { stroke-width: 7; fill: none } .link { stroke-width: 4 } .plate { fill-opacity: 0.15 } .rail { stroke: #999; stroke-width: 6; stroke-opacity: 0.6 }
+path { fill: none; stroke-linecap: round; stroke-linejoin: round } .base { stroke: #666; stroke-width: 2; fill: #6662 } .base.thin { stroke-dasharray: 2 5; stroke-width: 4 }
+.platform { stroke: #06c; stroke-width: 2; fill: #06c3 } .platform.thin { stroke-width: 7; fill: none } .link { stroke-width: 4 } .plate { fill-opacity: 0.15 } .rail { stroke: #999; stroke-width: 6; stroke-opacity: 0.6 }
 .c0 { stroke: #c50 } .c1 { stroke: #181 } .c2 { stroke: #7a3fb0 } .c3 { stroke: #a67c00 } .c4 { stroke: #c2185b } .c5 { stroke: #0a8a8a } .c6 { stroke: #5b6b00 }
 .joint { fill: #fff; stroke: #333; stroke-width: 1.5 } .driven { fill: #333 } .path { stroke: #333; stroke-width: 1.5; stroke-dasharray: 4 3 }
 </style>

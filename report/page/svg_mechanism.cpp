@@ -68,7 +68,7 @@ std::string bodyDrawn(const MechanismPicture::Body& body, const std::string& sty
   std::vector<Vector3d> points;
   for (const std::size_t k : shape.points) points.push_back(placed(body, body.points[k], 0));
   if (points.size() < 2) return "";
-  return lineThrough(style + (shape.plate ? " plate" : " bar"), points, on, shape.plate);
+  return lineThrough(style + (shape.plate ? " plate" : " thin"), points, on, shape.plate);
 }
 
 std::string jointDrawn(const MechanismPicture& picture, const MechanismPicture::Joint& joint, const Projection& on) {

@@ -5,7 +5,6 @@ import { ball, between, drum, paint, rod, turnTo } from "./shapes.js";
 import { color, lineColor } from "./theme.js";
 import { quaternionAt, vectorAt } from "./tracks.js";
 
-const up = new Vector3(0, 0, 1);
 const start = { index: 0, share: 0 };
 const vector = (numbers, k = 0) => new Vector3(...numbers.slice(3 * k, 3 * k + 3));
 const pointsOf = (body) => Array.from({ length: body.points.length / 3 }, (_, k) => vector(body.points, k));
@@ -47,8 +46,7 @@ export function extent(machine, size) {
   const path = Array.from({ length: machine.p.length / 3 }, (_, k) => vector(machine.p, k));
   const tags = motorJoints(machine).flatMap((joint) => {
     const { width } = inked(joint.name, isWrong(machine, joint));
-    const below = placeOf(machine, joint, start).addScaledVector(up, -tag_drop * size);
-    return all([below], (width / 64) * tag_height / 2, tag_height / 2);
+    return all([placeOf(machine, joint, start)], ((width / 64) * tag_height) / 2, tag_drop + tag_height / 2);
   });
   return [...all(linkEnds(machine), 0.055, 0.055), ...all(path, 0.016, 0.016), ...tags];
 }
@@ -69,6 +67,8 @@ function nameTag(name, wrong, size) {
   const map = new CanvasTexture(canvas);
   map.colorSpace = SRGBColorSpace;
   const tag = new Sprite(new SpriteMaterial({ map, depthTest: false }));
+  tag.center.set(0.5, 0.5 + tag_drop / tag_height); // below its joint on the screen, wherever one looks from
+  tag.renderOrder = 1;
   tag.scale.set((width / 64) * tag_height * size, tag_height * size, 1);
   return tag;
 }
@@ -127,7 +127,7 @@ function makeJoint(machine, joint, size) {
     group.position.copy(placeOf(machine, joint, place));
     joint.axes.forEach((_, k) => turnTo(group.children[k], axisOf(machine, joint, k, place)));
     if (rail) between(rail, moved(vector(joint.at), poseAt(machine.bodies[joint.parent], place)), group.position);
-    tag?.position.copy(group.position).addScaledVector(up, -tag_drop * size);
+    tag?.position.copy(group.position);
   };
   return { group: all, update };
 }

@@ -22,6 +22,7 @@ void addBodies(const Mechanism& mechanism, MechanismPicture& out) {
     if (!body.fixed) out.mass += body.mass;
   }
   for (const MechanismJoint& joint : mechanism.joints()) {
+    if (joint.kind == JointKind::free) continue;
     addPoint(joint.centre, mechanism.length(), out.bodies[joint.parent].points);
     addPoint(joint.centre_of_child, mechanism.length(), out.bodies[joint.child].points);
   }
