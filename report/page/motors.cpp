@@ -126,7 +126,7 @@ std::string motorsTable(const ValidationResult& result) {
   const auto row = [&names](const MotorDeviation& motor) { return motorRow(motor, names); };
   return rendered(motors_html, {{"patterns", patterns},
                                 {"named", !names.empty()},
-                                {"columns", (patterns ? 4 : 3) + (names.empty() ? 0 : 2)},
+                                {"columns", (patterns ? 4 : 3) + (names.empty() ? 0 : 1)},
                                 {"motors", listOf(motors, row)}});
 }
 
