@@ -36,9 +36,9 @@ add_custom_target(ursula_headers ALL DEPENDS ${headers_stamp})
 # linked, for the libraries that they need.
 get_property(built GLOBAL PROPERTY URSULA_BUILT_PARTS)
 list(REMOVE_ITEM built ursula_prove ursula_random ursula_scenario_docs ursula_sweep)  # no public header has them
-set(parts ursula_base ursula_model ursula_nocsolver ursula_simbody ursula_verdict ursula_subject ursula_limits ursula_samples
+set(parts ursula_base ursula_model ursula_nocsolver ursula_loops ursula_simbody ursula_verdict ursula_subject ursula_limits ursula_samples
   ursula_replay ursula_evidence ursula_checks ursula_findings ursula_report ursula_validation ursula_outside ursula_provenance
-  ursula_check_scenario ursula_closing ursula_maximal_loop ursula_mujoco ${built})
+  ursula_check_scenario ursula_closing ursula_maximal_loop ursula_mujoco ursula_mechanism ${built})
 list(TRANSFORM parts REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE objects)
 set(as_users_do ${PROJECT_BINARY_DIR}/generated/library.cpp)
 file(CONFIGURE OUTPUT ${as_users_do} CONTENT "#include <ursula/ursula.h>\n")

@@ -160,6 +160,8 @@ bool isMechanism(const std::string& text) {
   }
 }
 
+bool isMechanismFile(const std::filesystem::path& file) { return isMechanism(scenarioText(file)); }
+
 MechanismScenario parseMechanism(const std::string& text, const std::filesystem::path& file, ModelReader reader) {
   const toml::table table = parseToml(text, file.string());
   const TomlSection document(table, "", file.string());

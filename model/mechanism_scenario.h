@@ -49,11 +49,14 @@ struct MechanismScenario {
 
 /// Returns whether a scenario's text has `[mechanism]`. A text that is no TOML has none.
 bool isMechanism(const std::string& text);
+/// Returns the same of a file. Throws ScenarioError if it cannot be read.
+bool isMechanismFile(const std::filesystem::path& file);
 
 /// Reads and checks a whole scenario with `[mechanism]`; `file` names it in errors and anchors relative paths. Throws
 /// ScenarioError, and what `reader` throws.
-MechanismScenario parseMechanism(const std::string& text, const std::filesystem::path& file, ModelReader reader);
-MechanismScenario readMechanism(const std::filesystem::path& file, ModelReader reader);
+MechanismScenario parseMechanism(const std::string& text, const std::filesystem::path& file,
+                                 ModelReader reader = partModelReader());
+MechanismScenario readMechanism(const std::filesystem::path& file, ModelReader reader = partModelReader());
 
 /// Returns the names of a motor's columns: "q_1_rad", "qdot_1_rad_s", "qddot_1_rad_s2", "tau_1_Nm", or with m and N.
 std::string motorColumn(const Mechanism& mechanism, std::size_t k, const char* quantity);

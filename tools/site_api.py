@@ -13,6 +13,8 @@ HEADERS = {
                "parts/derivatives/effort_derivatives.h", "parts/poses/direct_kinematics.h", "parts/poses/ups_poses.h"],
     "validate": ["validation/subject/subject.h", "validation/validate.h", "validation/outside/outside_solver.h",
                  "validation/validate.h", "validation/verdict/result.h"],
+    "mechanism": ["model/mechanism.h", "model/motor_trajectory.h", "model/mechanism_scenario.h", "nocsolver/loops/loop_solver.h",
+                  "validation/mechanism/validate_mechanism.h"],
     "report": ["report/files/report.h", "report/files/written_files.h"],
     "studies": ["parts/simulate/simulate.h", "validation/check_scenario/check_scenario.h", "report/page/scenario_picture.h", "parts/map/pose_map.h",
                 "parts/compare/compare.h"],

@@ -20,6 +20,11 @@ EXAMPLES = {
     "PlatformPoses": "all_poses.cpp poses",
     "Subject": "judge_own_solver.cpp judge",
     "ValidationResult": "judge_own_solver.cpp judge",
+    "MechanismScenario": "judge_fourbar.cpp judge",
+    "MechanismSubject": "judge_fourbar.cpp judge",
+    "MechanismAlong": "judge_fourbar.cpp dynamics",
+    "LoopSolver": "judge_fourbar.cpp dynamics",
+    "LoopWork": "judge_fourbar.cpp dynamics",
     "Check": "judge_own_solver.cpp judge",
 }
 TYPE = re.compile(r"((?:^///[^\n]*\n)*)((?:template[^\n]*\n)?(?:class|struct) (\w+)[^;{]*\{)", re.M)

@@ -6,6 +6,7 @@
 #include "include/ursula/abi.h"
 #include "include/ursula/exchange.h"
 #include "include/ursula/identify.h"
+#include "include/ursula/mechanism.h"
 #include "include/ursula/report.h"
 #include "include/ursula/scenario.h"
 #include "include/ursula/solver.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/csv.h"
 #include "base/text.h"
@@ -32,18 +33,15 @@ void requireInstants(const CsvTable& table, std::vector<double>& t, double durat
   }
 }
 
-}  // namespace
+using ColumnNames = std::vector<std::pair<std::string, std::string>>;
 
-GivenEfforts readMotorEfforts(const std::filesystem::path& file, const Mechanism& mechanism, double duration,
-                              const std::vector<std::pair<std::string, std::string>>& map) {
-  const CsvTable table = readCsv(file);
+GivenEfforts effortsIn(const CsvTable& table, const Mechanism& mechanism, double duration, const ColumnNames& map) {
   const auto mapped = [&](const std::string& name) {
     const auto found = std::find_if(map.begin(), map.end(), [&](const auto& each) { return each.first == name; });
     return found == map.end() ? std::string() : found->second;
   };
   GivenEfforts out;
-  out.name = file.filename().string();
-  out.is_read = true;
+  out.name = table.file.filename().string();
   const std::string time = mapped("t_s").empty() ? "t_s" : mapped("t_s");
   out.t = table.at(time);
   std::vector<std::string> used = {time};
@@ -73,6 +71,30 @@ GivenEfforts readMotorEfforts(const std::filesystem::path& file, const Mechanism
     if (std::find(used.begin(), used.end(), name) == used.end()) out.ignored.push_back(name);
   requireInstants(table, out.t, duration);
   return out;
+}
+
+}  // namespace
+
+GivenEfforts readMotorEfforts(const std::filesystem::path& file, const Mechanism& mechanism, double duration,
+                              const ColumnNames& map) {
+  GivenEfforts out = effortsIn(readCsv(file), mechanism, duration, map);
+  out.is_read = true;
+  return out;
+}
+
+GivenEfforts givenEfforts(const std::string& name, const std::vector<double>& t,
+                          const std::vector<MotorEfforts>& efforts, const Mechanism& mechanism, double duration) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "t_s");
+  for (std::size_t k = 0; k < mechanism.motorCount(); ++k) fmt::format_to(out, ",{}", motorColumn(mechanism, k, "tau"));
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    fmt::format_to(out, "\n{}", t[i]);
+    for (const double effort : efforts.at(i)) fmt::format_to(out, ",{}", effort);
+  }
+  GivenEfforts read = effortsIn(parseCsv(fmt::to_string(text), name), mechanism, duration, {});
+  read.name = name;
+  return read;
 }
 
 }  // namespace ursula

@@ -48,6 +48,10 @@ std::shared_ptr<const MechanismPicture> pictureAsRead(const MechanismScenario& s
 GivenEfforts readMotorEfforts(const std::filesystem::path& file, const Mechanism& mechanism, double duration,
                               const std::vector<std::pair<std::string, std::string>>& map = {});
 
+/// Returns the same of numbers in memory; they count as a file that gives each number by its shortest text.
+GivenEfforts givenEfforts(const std::string& name, const std::vector<double>& t,
+                          const std::vector<MotorEfforts>& efforts, const Mechanism& mechanism, double duration);
+
 /// Engines of the parts in this build, beside Simbody.
 std::vector<MakeMechanismEngine> partMechanismEngines();
 
