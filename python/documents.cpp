@@ -9,7 +9,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 
+#include "python/mechanism.h"
 #include "python/scenario.h"
 #include "python/words.h"
 
@@ -63,16 +65,37 @@ py::object plain(const py::handle& value, const std::string& place) {
   refuse(place, typeOf(value) + ", expected a number, text, a list or a dict");
 }
 
-std::shared_ptr<ScenarioWithSolver> scenarioOf(const py::object& given,
-                                               const std::optional<std::filesystem::path>& folder) {
+using Either = std::variant<std::shared_ptr<ScenarioWithSolver>, std::shared_ptr<MechanismWithSolver>>;
+
+/// Makes a Python object of what `make` returns; it is called without Python's lock.
+template <class Make>
+py::object ofEither(const Make& make) {
+  const Either made = [&make] {
+    const Unlocked unlocked;
+    return make();
+  }();
+  return std::visit([](const auto& scenario) { return py::object(py::cast(scenario)); }, made);
+}
+
+py::object readAny(const std::filesystem::path& file) {
+  return ofEither([&file]() -> Either {
+    if (isMechanismFile(file)) return mechanismOf(file);
+    return warnedOf(std::make_shared<ScenarioWithSolver>(readScenario(file)));
+  });
+}
+
+py::object scenarioOf(const py::object& given, const std::optional<std::filesystem::path>& folder) {
   const bool is_text = py::isinstance<py::str>(given);
   if (!is_text && !py::isinstance<py::dict>(given))
     throw py::type_error("scenario: expected a dict or text in TOML, found " + typeOf(given) +
                          "; read_scenario reads files");
   const std::string text = py::str(is_text ? given : py::module_::import("json").attr("dumps")(plain(given, "")));
   const std::filesystem::path file = folder.value_or("") / (is_text ? from_text : from_dict);
-  const Unlocked unlocked;
-  return warnedOf(std::make_shared<ScenarioWithSolver>(parseScenario(is_text ? text : tomlOfJson(text, file), file)));
+  return ofEither([&]() -> Either {
+    const std::string document = is_text ? text : tomlOfJson(text, file);
+    if (isMechanism(document)) return mechanismOf(document, file);
+    return warnedOf(std::make_shared<ScenarioWithSolver>(parseScenario(document, file)));
+  });
 }
 
 std::shared_ptr<ScenarioWithSolver> importModel(const std::filesystem::path& file, const std::string& base,
@@ -118,6 +141,7 @@ void addDocuments(py::module_& module, ScenarioClass& scenario) {
              py::arg("platform") = "", py::arg("actuated") = std::vector<std::string>(),
              py::arg("close") = std::vector<std::string>(), py::arg("tolerance") = 1e-5, py::arg("lump") = 1e-3,
              words::import_model);
+  module.def("read_scenario", &readAny, py::arg("path"), words::read_scenario);
   module.def("scenario", &scenarioOf, py::arg("dict_or_text"), py::kw_only(), py::arg("folder") = py::none(),
              words::scenario_of);
 }

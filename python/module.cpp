@@ -1,5 +1,6 @@
 #include <pybind11/pybind11.h>
 #include <ursula/build.h>
+#include <ursula/mechanism.h>
 #include <ursula/scenario.h>
 #include <ursula/solver.h>
 
@@ -28,6 +29,14 @@ void raisePoseError(const ursula::PoseError& error) {
   PyErr_SetObject(type.ptr(), out.ptr());
 }
 
+/// The loops of a mechanism have no numbers to tell.
+void raisePoseError(const ursula::LoopError& error) {
+  const py::object type = py::module_::import("ursula._ursula").attr("PoseError");
+  py::object out = type(error.what());
+  for (const char* name : {"leg", "instant", "measure", "bound"}) out.attr(name) = py::none();
+  PyErr_SetObject(type.ptr(), out.ptr());
+}
+
 void raiseScenarioError(const std::string& what) {
   PyErr_SetString(py::module_::import("ursula._ursula").attr("ScenarioError").ptr(),
                   ursula::python::inPython(what).c_str());
@@ -39,13 +48,16 @@ void addErrors(py::module_& module) {
   py::register_exception<ursula::UndeterminedPose>(module, "UndeterminedPose", PyExc_ValueError).doc() =
       "Actuated coordinates that do not determine the platform's pose.";
   py::register_exception<ursula::PoseError>(module, "PoseError", PyExc_ValueError).doc() =
-      "A pose that the legs cannot reach, or that is singular. leg: 1 to 6, or None. instant: s. measure: the number\n"
-      "that decides. bound: its limit.";
+      "A pose that the legs or loops cannot reach, or that is singular. leg: 1 to 6, or None. instant: s. measure: "
+      "the\n"
+      "number that decides. bound: its limit. All four are None for a mechanism.";
   py::register_exception_translator([](std::exception_ptr thrown) {
     if (!thrown) return;
     try {
       std::rethrow_exception(thrown);
     } catch (const ursula::PoseError& error) {
+      raisePoseError(error);
+    } catch (const ursula::LoopError& error) {
       raisePoseError(error);
     } catch (const ursula::ScenarioError& error) {
       raiseScenarioError(ursula::atLength(error));

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "python/archive.h"
@@ -159,6 +160,15 @@ py::array_t<double> columnOf(const py::object& values, const char* what) {
   if (given.ndim() != 1)
     throw py::value_error(std::string(what) + ": shape " + shapeOf(given) + ", expected (N,) or a number");
   return given;
+}
+
+void refuseOutside(const py::array_t<double>& instants, double duration) {
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  const double *first = instants.data(), *last = first + instants.size(), slack = rounding * duration;
+  const double* found = std::find_if(first, last, [&](double t) { return t < -slack || t > duration + slack; });
+  if (found == last) return;
+  throw py::value_error("t[" + std::to_string(found - first) + "] = " + shown(*found) +
+                        " s is outside of the motion, expected 0 to " + shown(duration) + " s");
 }
 
 void addMotion(py::module_& module) {

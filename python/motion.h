@@ -46,6 +46,10 @@ pybind11::array_t<double> rowsOf(const pybind11::object& values, pybind11::ssize
 /// The same with one number per row; a single number is one row.
 pybind11::array_t<double> columnOf(const pybind11::object& values, const char* what);
 
+/// Throws ValueError for an instant outside the motion. A few roundings beyond its end are accepted, as in the last
+/// value of numpy.arange(0, duration + step, step).
+void refuseOutside(const pybind11::array_t<double>& instants, double duration);
+
 void addMotion(pybind11::module_& module);
 
 }  // namespace ursula::python

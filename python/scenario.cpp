@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -15,6 +14,7 @@
 
 #include "python/archive.h"
 #include "python/bindings.h"
+#include "python/mechanism.h"
 #include "python/motion.h"
 #include "python/words.h"
 
@@ -24,17 +24,6 @@ class pybind11::detail::type_caster<ursula::PlatformPose> : public ursula::pytho
 namespace ursula::python {
 namespace py = pybind11;
 namespace {
-
-/// Throws ValueError for an instant outside the motion. A few roundings beyond its end are accepted, as in the last
-/// value of numpy.arange(0, duration + step, step).
-void refuseOutside(const py::array_t<double>& instants, double duration) {
-  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-  const double *first = instants.data(), *last = first + instants.size(), slack = rounding * duration;
-  const double* found = std::find_if(first, last, [&](double t) { return t < -slack || t > duration + slack; });
-  if (found == last) return;
-  throw py::value_error("t[" + std::to_string(found - first) + "] = " + shown(*found) +
-                        " s is outside of the motion, expected 0 to " + shown(duration) + " s");
-}
 
 Motions motionAt(const ScenarioWithSolver& self, const py::object& t) {
   const py::array_t<double> instants = columnOf(t, "t");
@@ -258,6 +247,7 @@ std::shared_ptr<ScenarioWithSolver> warnedOf(std::shared_ptr<ScenarioWithSolver>
 
 void addScenario(py::module_& module) {
   addPose(module);
+  addMechanism(module);
   py::class_<ScenarioWithSolver, std::shared_ptr<ScenarioWithSolver>> scenario(module, "Scenario", words::scenario);
   addCopies(scenario);
   const auto content = [](const ScenarioWithSolver& self) { return scenarioJson(self.scenario); };
@@ -289,13 +279,6 @@ void addScenario(py::module_& module) {
       .def("__repr__", [](const ScenarioWithSolver& self) { return "<ursula.Scenario '" + self.scenario.name + "'>"; });
   addDerivatives(scenario);
   addDocuments(module, scenario);
-  module.def(
-      "read_scenario",
-      [](const std::filesystem::path& file) {
-        const Unlocked unlocked;
-        return warnedOf(std::make_shared<ScenarioWithSolver>(readScenario(file)));
-      },
-      py::arg("path"), words::read_scenario);
 }
 
 }  // namespace ursula::python

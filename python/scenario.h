@@ -36,6 +36,10 @@ class pybind11::detail::type_caster<ursula::python::ScenarioWithSolver>
 
 namespace ursula::python {
 
+/// Throws TypeError with the function's name and what is expected unless the object is a Scenario.
+void requireScenario(const char* function, const pybind11::object& given,
+                     const char* expected = "ursula.Scenario or ursula.MechanismScenario");
+
 void addScenario(pybind11::module_& module);
 
 /// Warns (UserWarning) of what `check` lists for a scenario that was read, once, at the caller's line. Is called

@@ -15,6 +15,7 @@
 
 #include "python/archive.h"
 #include "python/judging.h"
+#include "python/mechanism.h"
 #include "python/motion.h"
 #include "python/scenario.h"
 #include "python/words.h"
@@ -62,7 +63,15 @@ Simulated simulated(const ScenarioWithSolver& self, const py::object& torques, c
   return {{std::move(run.motions)}, tau, run.gave_up};
 }
 
-std::vector<std::string> checked(const ScenarioWithSolver& self) {
+std::vector<std::string> checkedAny(const py::object& given) {
+  const bool is_mechanism = py::isinstance<MechanismWithSolver>(given);
+  if (!is_mechanism) requireScenario("check", given);
+  if (is_mechanism) {
+    const auto& mechanism = given.cast<const MechanismWithSolver&>();
+    const Unlocked unlocked;
+    return checked(mechanism);
+  }
+  const auto& self = given.cast<const ScenarioWithSolver&>();
   const Unlocked unlocked;
   tryMotion(self.scenario);
   return warnings(self.scenario);
@@ -144,7 +153,7 @@ void addStudies(py::module_& module) {
       });
   module.def("simulate", &simulated, py::arg("s"), py::arg("torques"), py::arg("t"), py::kw_only(),
              py::arg("engine") = "simbody", py::arg("time_limit") = py::none(), words::simulate);
-  module.def("check", &checked, py::arg("s"), words::check_scenario);
+  module.def("check", &checkedAny, py::arg("s"), words::check_scenario);
   module.def("map", &mapped, py::arg("s"), py::kw_only(), py::arg("x") = py::none(), py::arg("y") = py::none(),
              py::arg("z") = py::none(), py::arg("roll") = py::none(), py::arg("pitch") = py::none(),
              py::arg("yaw") = py::none(), py::arg("at") = 0.0, py::arg("jobs") = 0, words::map);

@@ -4,7 +4,37 @@
 
 namespace ursula::python::words {
 
-constexpr const char* module = R"(Validates the closed-form dynamics of a six-dof parallel manipulator.
+constexpr const char* mechanism_scenario =
+    R"(A machine with any closed loops, the motion of its motors and the settings of its validation; read_scenario and
+scenario make it of a file or text with [mechanism].)";
+
+constexpr const char* mechanism_motion =
+    R"(Motion of a mechanism's n motors and of its other joints at N instants; a MechanismScenario's motion() makes it.
+Arrays are views that cannot be written to. m[k] and m[i:j] are motions, too.)";
+
+constexpr const char* joints =
+    R"(Coordinates of all joints that no motor drives, by the model's names and units: "knee_rad", "slide_m", each (N,).
+A ball has a quaternion, "ball_w" to "ball_z".)";
+
+constexpr const char* mechanism_at =
+    R"(The commanded motion at t, s: (N,) or a number, in [0, duration]. It follows the loops from the assembly of the
+model's pose. Raises ValueError for an instant outside or not finite, ScenarioError unless there are as many motors as
+freedoms, and PoseError if the loops cannot follow.)";
+
+constexpr const char* mechanism_inverse_dynamics =
+    R"(Efforts of the n motors for a motion of N instants: (N, n), N m, or N for a motor that slides. Each is conjugate
+to its motor's rate. `ursula inverse` writes the same numbers. Raises ValueError for a motion of another number of motors,
+and PoseError as motion() does.)";
+
+constexpr const char* mechanism_direct_dynamics =
+    R"(Accelerations of the n motors under efforts tau, N m or N, (N, n), in the states of a motion of N instants:
+(N, n), rad/s² or m/s². The motion's own accelerations are not read. Raises ValueError for other shapes, and PoseError
+as motion() does.)";
+
+constexpr const char* body = "A body of a mechanism, at the pose of its model file.";
+
+constexpr const char* module =
+    R"(Validates the dynamics of six-dof parallel manipulators and of any mechanism with closed loops.
 
 NumPy in and out; rows are instants; SI units; frames: B is the base's, M the platform's.)";
 
@@ -20,14 +50,14 @@ constexpr const char* q =
     "Orientation of M in B as unit quaternions [w, x, y, z]: (N, 4). The first has w >= 0; the signs do not jump.";
 
 constexpr const char* read_scenario =
-    "Reads and checks a scenario file (TOML). Raises ScenarioError, with file, line and column. Warns (UserWarning) "
-    "of\n"
-    "what check() lists, as scenario() and import_model() do.";
+    R"(Reads and checks a scenario file (TOML). Returns a Scenario, or a MechanismScenario if the file has [mechanism].
+Raises ScenarioError, with file, line and column. Warns (UserWarning) of what check() lists, as scenario() and
+import_model() do.)";
 
 constexpr const char* scenario_of =
-    R"(Makes a Scenario from a dict or from text in TOML, with the keys of a scenario's file. A dict may contain arrays
-of NumPy and paths. folder: relative paths start there; default: the current folder. Raises ScenarioError, with
-line and column for a text, and with the key for a dict, whose lines are those of its to_toml().)";
+    R"(Makes a scenario, as read_scenario does, from a dict or from text in TOML, with the keys of a scenario's file. A
+dict may contain arrays of NumPy and paths. folder: relative paths start there; default: the current folder. Raises
+ScenarioError, with line and column for a text, and with the key for a dict, whose lines are those of its to_toml().)";
 
 constexpr const char* import_model =
     R"(Makes a Scenario from a model in SDF, MJCF or URDF. base and platform: names of bodies, if the model has several
@@ -128,8 +158,11 @@ constexpr const char* comparison =
 
 constexpr const char* validate = R"(Validates a scenario and returns a Result.
 
+s: a Scenario, a MechanismScenario, or the path of a scenario file.
+
 solver: the solver under test instead of this program's own. It is a function f(m) that gives the efforts (N, 6),
-N m or N, for a Motion of any number N of instants. One thread at a time calls it, in any order of instants.
+N m or N, for a Motion of any number N of instants. For a mechanism it gets a MechanismMotion and gives (N, n), with one
+column for each of the n motors; so have torques. One thread at a time calls it, in any order of instants.
 Checks that need a second machine, kinematics or direct dynamics are then not applicable.
 
 torques, t: efforts (N, 6), N m or N, under test instead, at instants (N,), s. They are judged as

@@ -1,4 +1,4 @@
-"""Validates the closed-form dynamics of a six-dof parallel manipulator.
+"""Validates the dynamics of six-dof parallel manipulators and of any mechanism with closed loops.
 
 NumPy in and out; rows are instants; SI units; frames: B is the base's, M the platform's.
 
@@ -7,6 +7,9 @@ NumPy in and out; rows are instants; SI units; frames: B is the base's, M the pl
     tau = s.inverse_dynamics(m)                    # (301, 6), N m
     r = ursula.validate(s, solver=my_torques)      # my_torques(m) -> (N, 6)
     print(r.verdict, r.reason)
+
+A scenario with [mechanism] is a MechanismScenario: its n motors are s.motors, a motion has m.q, m.qdot, m.qddot and m.joints, and
+efforts are (N, n).
 """
 
 try:
@@ -17,12 +20,15 @@ except ImportError as _error:
 from . import _errors, _notebook
 from ._identify import Identified, identify
 from ._ursula import (
+    Body,
     Cause,
     Channel,
     Check,
     Comparison,
     Deviation,
     Finding,
+    MechanismMotion,
+    MechanismScenario,
     Motion,
     Pose,
     PoseError,
@@ -45,6 +51,7 @@ from ._ursula import (
 )
 
 __all__ = [
+    "Body",
     "Cause",
     "Channel",
     "Check",
@@ -52,6 +59,8 @@ __all__ = [
     "Deviation",
     "Finding",
     "Identified",
+    "MechanismMotion",
+    "MechanismScenario",
     "Motion",
     "Pose",
     "PoseError",
@@ -77,8 +86,8 @@ __all__ = [
 Result.plot = _notebook.plot
 Result._repr_html_ = _notebook.html
 
-_classes = (Cause, Channel, Check, Comparison, Deviation, Finding, Identified, Motion, Pose, PoseError, ReplayError, Result, Scenario,
-            ScenarioError, Simulation, UndeterminedPose)
+_classes = (Body, Cause, Channel, Check, Comparison, Deviation, Finding, Identified, MechanismMotion, MechanismScenario, Motion, Pose,
+            PoseError, ReplayError, Result, Scenario, ScenarioError, Simulation, UndeterminedPose)
 
 
 def _reduced(self, protocol):

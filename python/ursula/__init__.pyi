@@ -14,12 +14,12 @@ class ScenarioError(ValueError):
     """A scenario that cannot be read. The message gives file, line, column, the error and what was expected."""
 
 class PoseError(ValueError):
-    """A pose that the legs cannot reach, or that is singular."""
+    """A pose that the legs or loops cannot reach, or that is singular; all four are None for a mechanism."""
 
     leg: int | None  # 1 to 6
-    instant: float  # s
-    measure: float
-    bound: float
+    instant: float | None  # s
+    measure: float | None
+    bound: float | None
 
 class UndeterminedPose(ValueError):
     """Actuated coordinates that do not determine the platform's pose."""
@@ -66,6 +66,83 @@ class Motion:
     def __getitem__(self, row: int) -> Motion: ...
     @overload
     def __getitem__(self, rows: slice) -> Motion: ...
+
+class MechanismMotion:
+    """Motion of a mechanism's n motors and of its other joints at N instants."""
+
+    @property
+    def t(self) -> Array:
+        """Instants, s: (N,)."""
+    @property
+    def q(self) -> Array:
+        """Coordinates of the motors, rad or m: (N, n)."""
+    @property
+    def qdot(self) -> Array:
+        """Their rates, rad/s or m/s: (N, n)."""
+    @property
+    def qddot(self) -> Array:
+        """Their accelerations, rad/s² or m/s²: (N, n)."""
+    @property
+    def joints(self) -> dict[str, Array]:
+        """Coordinates of all other joints by name and unit, "knee_rad", "slide_m", "ball_w": each (N,)."""
+    @property
+    def joint_rates(self) -> dict[str, Array]:
+        """Their rates, by the same names: each (N,)."""
+    @property
+    def joint_accelerations(self) -> dict[str, Array]:
+        """Their accelerations, by the same names: each (N,)."""
+    def __len__(self) -> int: ...
+    @overload
+    def __getitem__(self, row: int) -> MechanismMotion: ...
+    @overload
+    def __getitem__(self, rows: slice) -> MechanismMotion: ...
+
+class Body:
+    """A body of a mechanism, at the pose of its model file."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def mass(self) -> float:
+        """kg."""
+    @property
+    def fixed(self) -> bool: ...
+    @property
+    def center_of_mass(self) -> Array:
+        """Position in the world, m: (3,)."""
+    @property
+    def inertia(self) -> Array:
+        """About the mass centre, in the world's axes, kg m²: (3, 3)."""
+
+class MechanismScenario:
+    """A machine with any closed loops, the motion of its motors and the settings of its validation."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def file(self) -> os.PathLike[str]: ...
+    @property
+    def model(self) -> os.PathLike[str]:
+        """The model file that it names."""
+    @property
+    def duration(self) -> float:
+        """Duration of the motion, s."""
+    @property
+    def motors(self) -> list[str]:
+        """The driven joints, in the order of efforts."""
+    @property
+    def bodies(self) -> list[Body]: ...
+    @property
+    def assumptions(self) -> list[str]:
+        """What was assumed on reading the model."""
+    def motion(self, t: npt.ArrayLike) -> MechanismMotion:
+        """The commanded motion at t, s: (N,) or a number."""
+    def inverse_dynamics(self, m: MechanismMotion) -> Array:
+        """Efforts of the n motors, N m, or N if a motor slides: (N, n)."""
+    def direct_dynamics(self, m: MechanismMotion, tau: npt.ArrayLike) -> Array:
+        """Accelerations of the n motors under efforts tau, N m or N, (N, n): rad/s² or m/s², (N, n)."""
+    def to_toml(self) -> str:
+        """The text of the scenario's source."""
 
 class Pose:
     """One pose of the platform for given actuated coordinates."""
@@ -345,7 +422,7 @@ class Comparison:
 History = Result | dict[str, npt.ArrayLike] | str | os.PathLike[str]
 Axis = float | tuple[float, float, int] | None
 
-def check(s: Scenario) -> list[str]:
+def check(s: Scenario | MechanismScenario) -> list[str]:
     """Returns warnings of values that are valid but unusual."""
 
 def compare(
@@ -417,11 +494,11 @@ def simulate(
 ) -> Simulation:
     """Computes the motion that efforts (N, 6) at instants t (N,) produce."""
 
-def read_scenario(path: str | os.PathLike[str]) -> Scenario:
-    """Reads and checks a scenario file (TOML)."""
+def read_scenario(path: str | os.PathLike[str]) -> Any:
+    """Reads and checks a scenario file (TOML): a Scenario, or a MechanismScenario if it has [mechanism]."""
 
-def scenario(dict_or_text: dict[str, Any] | str, *, folder: str | os.PathLike[str] | None = None) -> Scenario:
-    """Makes a scenario from a dict or from text in TOML; relative paths start at `folder`, by default the current one."""
+def scenario(dict_or_text: dict[str, Any] | str, *, folder: str | os.PathLike[str] | None = None) -> Any:
+    """Makes a scenario, as read_scenario does, from a dict or from text in TOML; relative paths start at `folder`, by default the current one."""
 
 def import_model(
     path: str | os.PathLike[str],
@@ -436,8 +513,8 @@ def import_model(
     """Makes a scenario from a model in SDF, MJCF or URDF; `assumptions` lists the assumptions made."""
 
 def validate(
-    s: Scenario,
-    solver: Callable[[Motion], npt.ArrayLike] | None = None,
+    s: Scenario | MechanismScenario | str | os.PathLike[str],
+    solver: Callable[[Any], npt.ArrayLike] | None = None,
     *,
     torques: npt.ArrayLike | None = None,
     t: npt.ArrayLike | None = None,
@@ -447,4 +524,7 @@ def validate(
     any_tolerance: bool = False,
     time_limit: float | None = None,
 ) -> Result:
-    """Validates a scenario with this program's solver or with `solver`: Motion of N instants -> (N, 6), N m or N."""
+    """Validates a scenario, or that of a path, with this program's solver or with `solver`.
+
+    The solver turns a Motion of N instants into efforts (N, 6), or a MechanismMotion into (N, n), N m or N.
+    """

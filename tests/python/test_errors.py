@@ -74,7 +74,7 @@ def test_no_keyword_shows_the_bindings_words(quick):
 
 @pytest.mark.parametrize("call, words", [
     (lambda s: ursula.validate(), "validate: missing a required argument: 's'"),
-    (lambda s: ursula.validate("my.toml"), "validate: s is 'my.toml' of type str, expected ursula.Scenario"),
+    (lambda s: ursula.validate(7), "validate: s is 7 of type int, expected ursula.Scenario, ursula.MechanismScenario or a path"),
     (lambda s: ursula.validate(s, rtol=[1]), r"validate: rtol is \[1\] of type list, expected a number, a share such as '0.1%' or None"),
     (lambda s: ursula.validate(s, solver="python3 mine.py"),
      "solver is 'python3 mine.py' of type str, expected a function of a Motion; a command is for `ursula validate` in a terminal"),
