@@ -31,7 +31,9 @@ ScenarioTable mechanism() {
            texts("close", "`\"A:B\"`: a ball joins the frame origins of these two links"),
            {"base", KeyType::string, "", no_default, "a body that stands still"},
            {"gravity", KeyType::vector, "m/s²", no_default, "instead of the file's"},
-           texts("leave_out", "what of the file is left out: `\"fluid\"`")}};
+           texts("leave_out",
+                 "what of the file is left out: `fluid`, `springs`, `limits`, `ball-friction`, `passive-friction`, "
+                 "`passive-armature`")}};
 }
 
 ScenarioKey kind() {
@@ -55,8 +57,8 @@ std::vector<ScenarioTable> motions() {
        "motors = [{ … }, …]",
        "",
        {{"offset", KeyType::number, "rad or m", "0.0", ""},
-        {"sin", KeyType::vector, "rad or m", "[]", "amplitudes"},
-        {"cos", KeyType::vector, "rad or m", "[]", "amplitudes"}}},
+        {"sin", KeyType::numbers, "rad or m", "[]", "amplitudes"},
+        {"cos", KeyType::numbers, "rad or m", "[]", "amplitudes"}}},
       {"trajectory.samples",
        "[trajectory], kind = \"samples\"",
        "Through the motors' coordinates, sampled densely.",
@@ -68,7 +70,7 @@ std::vector<ScenarioTable> motions() {
       {"trajectory.hold",
        "[trajectory], kind = \"hold\"",
        "At rest.",
-       {kind(), duration(), {"motors", KeyType::vector, "rad or m", required_key, "one coordinate for each motor"}}}};
+       {kind(), duration(), {"motors", KeyType::numbers, "rad or m", required_key, "one coordinate for each motor"}}}};
 }
 
 }  // namespace

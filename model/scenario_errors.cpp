@@ -77,6 +77,7 @@ class KeyErrors {
         for (const TomlSection& each : section.sections(key.name)) addAll(each, scenarioTable(key.of));
         return;
       case KeyType::share:
+      case KeyType::numbers:
       case KeyType::limits:
         return;
     }

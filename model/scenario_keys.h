@@ -15,6 +15,7 @@ enum class KeyType {
   choice,
   choices,
   vector,
+  numbers,  ///< an array of numbers of any length
   quaternion,
   center,
   inertia,

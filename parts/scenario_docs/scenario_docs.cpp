@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "model/mechanism_keys.h"
 #include "model/scenario_keys.h"
 
 namespace ursula {
@@ -12,9 +13,9 @@ namespace {
 
 constexpr const char* opening = R"(# Scenarios
 
-A scenario is one TOML file. This page is made by `./dev docs` from the table that the reader itself goes by (`model/scenario_keys.cpp`);
+A scenario is one TOML file. It has either `[manipulator]`, six motors on legs, or `[mechanism]`, a model file with [any closed loop](#any-closed-loop). This page is made by `./dev docs` from the tables that the reader itself goes by (`model/scenario_keys.cpp`, `model/mechanism_keys.cpp`);
 [scenario.schema.json](scenario.schema.json) is the same for editors: with Taplo (Even Better TOML), `#:schema docs/scenario.schema.json` as the first line
-of a file switches it on. `ursula init FILE.toml --kind UPS` (or URS, RUS, PUS) writes a scenario to start from, `ursula check FILE.toml` says what is wrong or odd in one.
+of a file switches it on. `ursula init FILE.toml --kind UPS` (or URS, RUS, PUS) writes a scenario to start from, `ursula init FILE.toml --model MODEL` one of a model file, `ursula check FILE.toml` says what is wrong or odd in one.
 
 A key that is not here is an error, and so is a value of another type. Numbers may be written as integers and must be finite. A key without a default is
 required, unless "Default" is a dash.
@@ -46,9 +47,12 @@ std::string typeWords(const ScenarioKey& key) {
     case KeyType::choice:
       return fmt::format("`\"{}\"`", fmt::join(key.choices, "\"`, `\""));
     case KeyType::choices:
+      if (key.choices.empty()) return "array of strings";
       return fmt::format("array of `\"{}\"`", fmt::join(key.choices, "\"`, `\""));
     case KeyType::vector:
       return "3 numbers";
+    case KeyType::numbers:
+      return "array of numbers";
     case KeyType::quaternion:
       return "4 numbers";
     case KeyType::center:
@@ -76,16 +80,30 @@ std::string row(const ScenarioKey& key) {
                      orDash(key.bound.words), orDash(key.meaning));
 }
 
+constexpr const char* loops = R"(
+## Any closed loop
+
+[Your mechanism](mechanism.md) leads from a model file to a verdict. A scenario with `[mechanism]` has these tables. `[simulation]` and `[acceptance]` are the same as above.
+
+Motors' coordinates are those of the model file: zero where the file's coordinate is zero, growing as its axis says. There are as many motors as freedoms.
+)";
+
+std::string section(const ScenarioTable& table, const char* level) {
+  std::string out =
+      fmt::format("\n{} {}\n\n", level, table.name[0] == '\0' ? table.written : fmt::format("`{}`", table.written));
+  if (table.meaning[0] != '\0') out += fmt::format("{}\n\n", table.meaning);
+  out += "| key | type | unit | default | bound | meaning |\n| --- | --- | --- | --- | --- | --- |\n";
+  for (const ScenarioKey& key : table.keys) out += row(key);
+  return out;
+}
+
 }  // namespace
 
 std::string scenarioMarkdown() {
   std::string out = opening;
-  for (const ScenarioTable& table : scenarioTables()) {
-    out += fmt::format("\n## {}\n\n", table.name[0] == '\0' ? table.written : fmt::format("`{}`", table.written));
-    if (table.meaning[0] != '\0') out += fmt::format("{}\n\n", table.meaning);
-    out += "| key | type | unit | default | bound | meaning |\n| --- | --- | --- | --- | --- | --- |\n";
-    for (const ScenarioKey& key : table.keys) out += row(key);
-  }
+  for (const ScenarioTable& table : scenarioTables()) out += section(table, "##");
+  out += loops;
+  for (const ScenarioTable& table : mechanismTables()) out += section(table, "###");
   return out;
 }
 
@@ -93,7 +111,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json schemaOf(const ScenarioTable& table);
+/// Finds a table of one kind of scenario by its name.
+using Find = const ScenarioTable& (*)(std::string_view);
+
+Json schemaOf(const ScenarioTable& table, Find find);
 
 Json arrayOf(int least, int most) { return {{"$ref", "#/$defs/numbers"}, {"minItems", least}, {"maxItems", most}}; }
 
@@ -119,7 +140,7 @@ void addBound(const KeyBound& bound, Json& out) {
   if (!bound.zero_too) out["not"] = {{"const", 0}};
 }
 
-Json typeOf(const ScenarioKey& key) {
+Json typeOf(const ScenarioKey& key, Find find) {
   switch (key.type) {
     case KeyType::number:
       return {{"$ref", "#/$defs/number"}};
@@ -132,9 +153,12 @@ Json typeOf(const ScenarioKey& key) {
     case KeyType::choice:
       return {{"enum", key.choices}};
     case KeyType::choices:
+      if (key.choices.empty()) return {{"type", "array"}, {"items", {{"type", "string"}}}};
       return {{"type", "array"}, {"items", {{"enum", key.choices}}}, {"uniqueItems", true}};
     case KeyType::vector:
       return arrayOf(3, 3);
+    case KeyType::numbers:
+      return {{"type", "array"}, {"items", {{"type", "number"}}}};
     case KeyType::quaternion:
       return arrayOf(4, 4);
     case KeyType::center:
@@ -142,12 +166,12 @@ Json typeOf(const ScenarioKey& key) {
     case KeyType::inertia:
       return {{"anyOf", {arrayOf(3, 3), arrayOf(6, 6)}}};
     case KeyType::tables:
-      return {{"type", "array"}, {"items", schemaOf(scenarioTable(key.of))}};
+      return {{"type", "array"}, {"items", schemaOf(find(key.of), find)}};
     case KeyType::limits:
     case KeyType::table:
       break;
   }
-  return schemaOf(scenarioTable(key.of));
+  return schemaOf(find(key.of), find);
 }
 
 std::string description(const ScenarioKey& key) {
@@ -155,8 +179,8 @@ std::string description(const ScenarioKey& key) {
   return std::string(key.meaning) + (unit.empty() ? "" : (key.meaning[0] == '\0' ? "" : ", ") + unit);
 }
 
-Json schemaOf(const ScenarioKey& key) {
-  Json out = typeOf(key);
+Json schemaOf(const ScenarioKey& key, Find find) {
+  Json out = typeOf(key, find);
   addBound(key.bound, out);
   if (const std::string text = description(key); !text.empty()) out["description"] = text;
   if (key.fallback[0] != '\0' && !key.isRequired()) out["default"] = Json::parse(key.fallback);
@@ -176,11 +200,11 @@ bool mayBeElsewhere(const ScenarioTable& table) {
   return table.name == std::string("manipulator.leg") || table.name == std::string("manipulator.leg.link");
 }
 
-Json plainSchemaOf(const ScenarioTable& table) {
+Json plainSchemaOf(const ScenarioTable& table, Find find) {
   Json out = {{"type", "object"}, {"additionalProperties", false}};
   Json properties = Json::object(), required = Json::array(), all = Json::array();
   for (const ScenarioKey& key : table.keys) {
-    properties[key.name] = schemaOf(key);
+    properties[key.name] = schemaOf(key, find);
     const char* other = alternativeTo(table, key.name);
     if (other != nullptr) {
       const Json first = {{"required", {key.name}}}, second = {{"required", {other}}};
@@ -197,23 +221,37 @@ Json plainSchemaOf(const ScenarioTable& table) {
 }
 
 /// Returns the schema of [trajectory]: one of its kinds.
-Json kindsOf(const ScenarioTable& trajectory) {
+Json kindsOf(const ScenarioTable& trajectory, Find find) {
   Json out = {{"type", "object"}, {"oneOf", Json::array()}};
   for (const std::string& kind : trajectory.key("kind").choices) {
-    Json each = plainSchemaOf(scenarioTable("trajectory." + kind));
+    Json each = plainSchemaOf(find("trajectory." + kind), find);
     each["properties"]["kind"] = {{"const", kind}};
     out["oneOf"].push_back(each);
   }
   return out;
 }
 
-Json schemaOf(const ScenarioTable& table) {
-  if (table.name == std::string("trajectory")) return kindsOf(table);
-  Json out = plainSchemaOf(table);
+Json schemaOf(const ScenarioTable& table, Find find) {
+  if (table.name == std::string("trajectory")) return kindsOf(table, find);
+  Json out = plainSchemaOf(table, find);
   if (table.name == std::string("acceptance"))  // names of checks may be dotted keys and thus tables
     out["additionalProperties"] = {{"type", {"number", "object"}}};
   if (table.name == std::string("acceptance.torque")) out["additionalProperties"] = {{"type", {"number", "object"}}};
   return out;
+}
+
+/// Lets a document have [mechanism], with a motion of its motors, instead of [manipulator].
+void addMechanism(Json& out) {
+  const Json platforms = out["properties"]["trajectory"];
+  const Json motors = schemaOf(mechanismTable("trajectory"), &mechanismTable);
+  out["properties"]["mechanism"] = schemaOf(mechanismTable("mechanism"), &mechanismTable);
+  out["properties"]["trajectory"] = {{"anyOf", {platforms, motors}}};
+  out["required"] = {"name", "trajectory"};
+  const Json of_mechanism = {{"required", {"mechanism"}}}, of_manipulator = {{"required", {"manipulator"}}};
+  out["oneOf"] = {of_manipulator, of_mechanism};
+  out["if"] = of_mechanism;
+  out["then"] = {{"properties", {{"trajectory", motors}, {"load", false}}}};
+  out["else"] = {{"properties", {{"trajectory", platforms}}}};
 }
 
 }  // namespace
@@ -223,9 +261,10 @@ std::string scenarioSchema() {
               {"title", "A scenario of ursula"},
               {"description", scenarioTable("").meaning},
               {"$defs", definitions()}};
-  out.update(schemaOf(scenarioTable("")));
+  out.update(schemaOf(scenarioTable(""), &scenarioTable));
   out["properties"]["manipulator"]["properties"]["leg"]["minItems"] = 3;
   out["properties"]["manipulator"]["properties"]["leg"]["maxItems"] = 6;
+  addMechanism(out);
   return out.dump(2) + "\n";
 }
 

@@ -103,6 +103,8 @@ std::string expectation(const ScenarioKey& key) {
       return "expected an array of strings";
     case KeyType::vector:
       return "expected an array of 3 numbers";
+    case KeyType::numbers:
+      return "expected an array of numbers";
     case KeyType::quaternion:
       return "expected an array of 4 numbers";
     case KeyType::share:
