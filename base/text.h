@@ -31,8 +31,8 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
 /// Returns a file name as one shell word: quoted if needed, and never an option.
 std::string shellWord(const std::string& file);
 
-/// Makes foreign text safe for a message and a terminal. Control characters and invalid UTF-8 become \x1b and the like;
-/// lines stay.
+/// Makes foreign text safe for a message and a terminal. Control characters and invalid UTF-8 become `\x1b` and the
+/// like; lines stay.
 std::string withoutControls(std::string_view text);
 
 /// Returns the same for one cell or name: newlines are escaped, too. Text beyond `most` bytes is cut and marked by "…".

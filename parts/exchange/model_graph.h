@@ -34,7 +34,7 @@ struct OtherForce {
   Assumption left_out;  ///< said if it is left out
 };
 
-/// A pose of MJCF's <keyframe>; `qpos` as the file has it.
+/// A pose of an MJCF's `<keyframe>`; `qpos` as the file has it.
 struct Keyframe {
   std::string name, qpos;
   int line = 0;
