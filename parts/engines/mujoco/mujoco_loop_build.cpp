@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -99,25 +98,14 @@ bool isAsExpected(const mjModel& model, const Structure& structure) {
   return good;
 }
 
-/// MuJoCo reads files only, so the text is a virtual file in memory.
 Model parse(const Structure& structure) {
-  mju_user_error = mju_user_warning = throwMessage;  // by default it exits, prints and writes a log
-  const std::string text = describe(structure);
-  const auto files = std::make_unique<mjVFS>();
-  mj_defaultVFS(files.get());
-  const char* name = "machine.xml";
-  if (mj_makeEmptyFileVFS(files.get(), name, static_cast<int>(text.size())) != 0) throwMessage("no room for the text");
-  std::memcpy(files->filedata[mj_findFileVFS(files.get(), name)], text.data(), text.size());
-  std::array<char, 1000> error{};
-  Model model(mj_loadXML(name, files.get(), error.data(), static_cast<int>(error.size())));
-  mj_deleteVFS(files.get());
-  if (!model) throwMessage(error.data());
+  Model model = parseText(describe(structure));
   if (!isAsExpected(*model, structure))
     throwMessage("bodies, joints and sites stand in another order than was asked for");
   return model;
 }
 
-/// MuJoCo's parser keeps global state, so a mutex guards it and each structure is parsed once.
+/// Each structure is parsed once.
 const mjModel* parsed(const Structure& structure) {
   static std::mutex mutex;
   static std::map<Structure, Model> models;
@@ -224,12 +212,6 @@ Model buildModel(const Manipulator& manipulator, const Vector3d& origin, Closure
     write(manipulator.leg(leg).platform_point - platform.center_of_mass, model->site_pos, siteOnPlatform(legs, leg));
   }
   return model;
-}
-
-Data dataOf(const mjModel& model) {
-  Data out(mj_makeData(&model));
-  if (!out) throwMessage("no memory for its data");
-  return out;
 }
 
 Connected connected(const Manipulator& manipulator, const Vector3d& origin, const mjtNum* pose) {

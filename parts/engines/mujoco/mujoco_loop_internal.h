@@ -7,17 +7,9 @@
 
 #include "model/legs/leg_chain.h"
 #include "parts/engines/mujoco/mujoco_loop.h"
+#include "parts/engines/mujoco/mujoco_text_internal.h"
 
 namespace ursula::mujoco {
-
-static_assert(sizeof(mjtNum) == sizeof(double), "MuJoCo may be built for single precision");
-
-struct Delete {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-using Model = std::unique_ptr<mjModel, Delete>;
-using Data = std::unique_ptr<mjData, Delete>;
 
 // Indices in the model: leg after leg, then the platform.
 constexpr int joints_per_leg = 3;
@@ -48,9 +40,6 @@ constexpr int most_dofs = dofsOf(leg_count), most_gaps = legDofs(leg_count);
 using GapJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_gaps, most_dofs>;
 using VectorOfGaps = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_gaps, 1>;
 using VectorOfDofs = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_dofs, 1>;
-
-/// Throws std::runtime_error if there is no memory.
-Data dataOf(const mjModel& model);
 
 /// The machine with loops that MuJoCo closes.
 struct Connected {

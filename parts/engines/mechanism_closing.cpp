@@ -1,0 +1,238 @@
+#include "parts/engines/mechanism_closing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace ursula {
+namespace {
+
+/// With an error of 1e-9 before the last step, its square is below rounding after it.
+constexpr double near_enough = 1e-9;
+
+/// Where the pivots fall the most; below the last there is the rounding of the first.
+Eigen::Index rankOf(const Eigen::VectorXd& pivots) {
+  const double floor = pivots(0) * std::numeric_limits<double>::epsilon() * static_cast<double>(pivots.size());
+  Eigen::Index rank = 0;
+  double deepest = 0;
+  for (Eigen::Index i = 0; i < pivots.size(); ++i) {
+    const double next = i + 1 < pivots.size() ? std::max(pivots(i + 1), floor) : floor;
+    const double fall = std::max(pivots(i), floor) / next;
+    if (fall > deepest) deepest = fall, rank = i + 1;
+  }
+  return rank;
+}
+
+double thresholdBelow(const Eigen::VectorXd& pivots, Eigen::Index rank) {
+  const double last = pivots(rank - 1), next = rank < pivots.size() ? pivots(rank) : 0;
+  return std::max(std::sqrt(last * next), last * 1e-3) / pivots(0);
+}
+
+}  // namespace
+
+RankedFactors::RankedFactors(const Eigen::MatrixXd& A) : qr_(A) {
+  const Eigen::VectorXd pivots = qr_.matrixQR().diagonal().cwiseAbs();
+  const Eigen::Index rank = pivots.size() > 0 && pivots(0) > 0 ? rankOf(pivots) : 0;
+  if (rank == A.cols()) return;
+  const double threshold = rank > 0 ? thresholdBelow(pivots, rank) : 1;
+  for (auto* each : {&deficient_, &transposed_}) {
+    each->emplace();
+    (*each)->setThreshold(threshold);
+  }
+  deficient_->compute(A);
+  transposed_->compute(A.transpose());
+}
+
+Eigen::MatrixXd RankedFactors::solve(const Eigen::MatrixXd& b) const {
+  if (deficient_) return deficient_->solve(b);
+  return qr_.solve(b);
+}
+
+Eigen::VectorXd RankedFactors::solveTransposed(const Eigen::VectorXd& b) const {
+  if (transposed_) return transposed_->solve(b);
+  const Eigen::Index n = qr_.cols();
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(qr_.rows());
+  out.head(n) = qr_.matrixQR().topLeftCorner(n, n).triangularView<Eigen::Upper>().transpose().solve(
+      qr_.colsPermutation().transpose() * b);
+  out.applyOnTheLeft(qr_.householderQ());
+  return out;
+}
+
+MechanismClosing::MechanismClosing(const Mechanism& mechanism, const WeldedMechanism& welded,
+                                   const std::vector<std::size_t>& cut, SpeedsOfWelds& speeds)
+    : mechanism_(mechanism), speeds_(speeds) {
+  for (const std::size_t j : cut)
+    for (const JointRow& row : rowsOf(mechanism, j, welded)) rows_.push_back(row);
+  for (const JointRow& row : idleRows(mechanism, welded)) rows_.push_back(row);
+  const auto& motors = mechanism.motors();
+  for (const std::size_t j : motors) coordinates_.push_back(coordinatesOf(mechanism, j, welded).front());
+  for (std::size_t j = 0; j < mechanism.joints().size(); ++j) {
+    const MechanismJoint& joint = mechanism.joints()[j];
+    if (!joint.isLoaded() || std::count(motors.begin(), motors.end(), j) > 0) continue;
+    if (joint.stiffness != 0 && (joint.kind == JointKind::ball || joint.kind == JointKind::free))
+      throw std::domain_error(fmt::format("no spring of a ball: {}", joint.name));
+    for (const JointCoordinate& each : coordinatesOf(mechanism, j, welded)) coordinates_.push_back(each);
+  }
+  const double length = mechanism.length();
+  row_scale_ = Eigen::VectorXd::Ones(rowCount() + motorCount());
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (rows_[i].kind == JointRow::Kind::point) row_scale_(static_cast<Eigen::Index>(i)) = length;
+  for (Eigen::Index k = 0; k < motorCount(); ++k)
+    if (mechanism.motor(static_cast<std::size_t>(k)).slides()) row_scale_(rowCount() + k) = length;
+  column_scale_ = Eigen::VectorXd::Ones(speeds.count());
+  for (Eigen::Index i = 0; i < speeds.count(); ++i)
+    if (speeds.isLinear(i)) column_scale_(i) = length;
+  for (const JointCoordinate& each : coordinates_) near_.push_back(each.joint->position);
+  close();
+}
+
+MechanismClosing::Form MechanismClosing::formOf(const JointRow& row, bool with_bias) const {
+  const JointRowNow now = at(row, speeds_.state(row.a), speeds_.state(row.b));
+  Form out{Eigen::VectorXd::Zero(speeds_.count()), now.value, now.bias};
+  speeds_.addRow(row.a, now.of_a, out.J);
+  speeds_.addRow(row.b, now.of_b, out.J);
+  if (with_bias) out.bias += now.of_a.dot(speeds_.bias(row.a)) + now.of_b.dot(speeds_.bias(row.b));
+  return out;
+}
+
+MechanismClosing::Form MechanismClosing::formOf(std::size_t k, bool with_bias) const {
+  const JointCoordinate& c = coordinates_[k];
+  if (const auto own = speeds_.own(c.row.joint, c.index))
+    return {own->sign * Eigen::VectorXd::Unit(speeds_.count(), own->speed), c.joint->position + own->value, 0};
+  Form out = formOf(c.row, with_bias);
+  if (c.joint->kind == JointKind::ball || c.joint->kind == JointKind::free) return out;
+  out.value = near_[k] = valueOf(c, speeds_.state(c.row.a), speeds_.state(c.row.b), near_[k]);
+  return out;
+}
+
+Eigen::MatrixXd MechanismClosing::allRows(Eigen::Index motors) const {
+  Eigen::MatrixXd out(rowCount() + motors, speeds_.count());
+  for (Eigen::Index i = 0; i < out.rows(); ++i) {
+    const auto of_motor = static_cast<std::size_t>(std::max<Eigen::Index>(0, i - rowCount()));
+    const Form form = i < rowCount() ? formOf(rows_[static_cast<std::size_t>(i)], false) : formOf(of_motor, false);
+    out.row(i) = form.J.cwiseProduct(column_scale_).transpose() / row_scale_(i);
+  }
+  return out;
+}
+
+Eigen::VectorXd MechanismClosing::motorValues() const {
+  Eigen::VectorXd out(motorCount());
+  for (Eigen::Index k = 0; k < out.size(); ++k) out(k) = formOf(static_cast<std::size_t>(k), false).value;
+  return out;
+}
+
+Eigen::VectorXd MechanismClosing::errors(const Eigen::VectorXd* target) const {
+  Eigen::VectorXd out(rowCount() + (target != nullptr ? target->size() : 0));
+  for (Eigen::Index i = 0; i < rowCount(); ++i) {
+    const JointRow& row = rows_[static_cast<std::size_t>(i)];
+    out(i) = at(row, speeds_.state(row.a), speeds_.state(row.b)).value;
+  }
+  if (target != nullptr) out.tail(target->size()) = motorValues() - *target;
+  return out.cwiseQuotient(row_scale_.head(out.size()));
+}
+
+const std::string& MechanismClosing::worstJoint() const {
+  static const std::string none = "none";
+  if (rows_.empty()) return none;
+  Eigen::Index worst = 0;
+  errors(nullptr).cwiseAbs().maxCoeff(&worst);
+  return mechanism_.joints()[rows_[static_cast<std::size_t>(worst)].joint].name;
+}
+
+bool MechanismClosing::newton(const Eigen::VectorXd& target) {
+  constexpr double longest = 0.5, contraction = 0.25;
+  double before = longest / contraction;
+  for (int i = 0; i < 10; ++i) {
+    const Eigen::VectorXd by = RankedFactors(allRows(motorCount())).solve(-errors(&target));
+    const double size = by.norm();
+    if (!(size <= contraction * before) && !(size <= near_enough)) return false;
+    speeds_.step(column_scale_.cwiseProduct(by));
+    before = size;
+    if (size <= near_enough) return errors(&target).norm() <= near_enough;
+  }
+  return false;
+}
+
+void MechanismClosing::close() {
+  constexpr int most = 100;
+  for (int i = 0; i < most && rowCount() > 0; ++i) {
+    Eigen::VectorXd by = RankedFactors(allRows(0)).solve(-errors(nullptr));
+    const double size = by.norm();
+    if (size > 0.5) by *= 0.5 / size;
+    speeds_.step(column_scale_.cwiseProduct(by));
+    if (size <= near_enough && errors(nullptr).norm() <= near_enough) break;
+    if (i + 1 == most)
+      throw std::domain_error(fmt::format("the loop of joint {} cannot be closed near the file's pose", worstJoint()));
+  }
+  motorValues();
+}
+
+void MechanismClosing::moveTo(const MotorMotion& motion) {
+  const Eigen::VectorXd start = motorValues();
+  double share = 0, by = 1;
+  while (share < 1) {
+    const double next = std::min(1.0, share + by);
+    speeds_.keep();
+    near_kept_ = near_;
+    if (newton(next == 1 ? motion.q : Eigen::VectorXd(start + next * (motion.q - start)))) {
+      share = next;
+      by *= 2;
+      continue;
+    }
+    by /= 2;
+    const std::string joint = by < 1e-6 ? worstJoint() : "";
+    speeds_.goBack();
+    near_ = near_kept_;
+    if (by < 1e-6)
+      throw std::domain_error(
+          fmt::format("the loop of joint {} cannot follow the motors at t = {} s", joint, motion.t));
+  }
+}
+
+void MechanismClosing::place(const MotorMotion& motion) {
+  moveTo(motion);
+  factors_ = std::make_unique<RankedFactors>(allRows(motorCount()));
+  const auto solved = [&](Eigen::VectorXd right) -> Eigen::VectorXd {
+    return column_scale_.cwiseProduct(factors_->solve(right.cwiseQuotient(row_scale_)));
+  };
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(rowCount() + motorCount());
+  right.tail(motorCount()) = motion.qdot;
+  u_ = solved(right);
+  speeds_.setSpeeds(u_);
+  for (Eigen::Index i = 0; i < rowCount(); ++i) right(i) = -formOf(rows_[static_cast<std::size_t>(i)], true).bias;
+  for (Eigen::Index k = 0; k < motorCount(); ++k)
+    right(rowCount() + k) = motion.qddot(k) - formOf(static_cast<std::size_t>(k), true).bias;
+  u_dot_ = solved(right);
+}
+
+Eigen::VectorXd MechanismClosing::loads() const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(speeds_.count());
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+    const MechanismJoint& joint = *coordinates_[k].joint;
+    if (!joint.isLoaded()) continue;
+    const Form form = formOf(k, true);
+    const double rate = form.J.dot(u_);
+    double force = -joint.damping * rate - joint.rotor_inertia * (form.J.dot(u_dot_) + form.bias);
+    if (joint.friction != 0) force -= joint.friction * std::tanh(rate / joint.smoothing());
+    if (joint.stiffness != 0) force -= joint.stiffness * (form.value - joint.spring_reference);
+    out += force * form.J;
+  }
+  return out;
+}
+
+Eigen::VectorXd MechanismClosing::effortsByComplement(const Eigen::VectorXd& f) const {
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(rowCount() + motorCount(), motorCount());
+  for (Eigen::Index k = 0; k < motorCount(); ++k) right(rowCount() + k, k) = 1 / row_scale_(rowCount() + k);
+  return factors_->solve(right).transpose() * column_scale_.cwiseProduct(f);
+}
+
+Eigen::VectorXd MechanismClosing::effortsByMultipliers(const Eigen::VectorXd& f) const {
+  return factors_->solveTransposed(column_scale_.cwiseProduct(f))
+      .tail(motorCount())
+      .cwiseQuotient(row_scale_.tail(motorCount()));
+}
+
+}  // namespace ursula

@@ -1,0 +1,126 @@
+#include "parts/engines/mujoco/mujoco_mechanism.h"
+
+#include <algorithm>
+#include <array>
+
+#include "parts/engines/mujoco/mujoco_mechanism_internal.h"
+
+namespace ursula {
+namespace mujoco {
+
+TreeSpeeds::TreeSpeeds(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree)
+    : gravity_(mechanism.gravity()),
+      welded_(welded),
+      model_(treeModel(mechanism, welded, tree)),
+      data_(dataOf(*model_)),
+      of_tree_(mechanism.joints().size()),
+      bodies_(welded.welds.size()),
+      states_(welded.welds.size()),
+      jacobians_(states_.size()),
+      biases_(states_.size(), Vector6d::Zero()) {
+  for (const WeldStep& step : tree.steps) {
+    const int body = bodies_[step.to] = bodyOf(*model_, step.to);
+    if (step.joint != WeldStep::none)
+      of_tree_[step.joint] = {model_->body_jntadr[body], model_->body_jntnum[body], step.reversed};
+  }
+  readPose();
+}
+
+bool TreeSpeeds::isLinear(Eigen::Index i) const {
+  const int joint = model_->dof_jntid[i], own = static_cast<int>(i) - model_->jnt_dofadr[joint];
+  return model_->jnt_type[joint] == mjJNT_SLIDE || (model_->jnt_type[joint] == mjJNT_FREE && own < 3);
+}
+
+void TreeSpeeds::step(const Eigen::VectorXd& by) {
+  mj_integratePos(model_.get(), data_->qpos, by.data(), 1);
+  readPose();
+}
+
+void TreeSpeeds::goBack() {
+  std::copy(kept_.begin(), kept_.end(), data_->qpos);
+  readPose();
+}
+
+void TreeSpeeds::readPose() {
+  using RowMajor = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
+  mj_kinematics(model_.get(), data_.get());
+  mj_comPos(model_.get(), data_.get());
+  RowMajor linear(3, count()), angular(3, count());
+  for (std::size_t w = 1; w < states_.size(); ++w) {
+    const int body = bodies_[w];
+    states_[w].R = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data_->xmat + 9 * body);
+    states_[w].c = Eigen::Map<const Vector3d>(data_->xpos + 3 * body);
+    mj_jac(model_.get(), data_.get(), linear.data(), angular.data(), data_->xpos + 3 * body, body);
+    jacobians_[w].resize(6, count());
+    jacobians_[w] << angular, linear;
+  }
+}
+
+void TreeSpeeds::setSpeeds(const Eigen::VectorXd& u) {
+  std::copy_n(u.data(), u.size(), data_->qvel);
+  std::fill_n(data_->qacc, u.size(), 0.0);
+  mj_comVel(model_.get(), data_.get());
+  mj_rnePostConstraint(model_.get(), data_.get());
+  for (std::size_t w = 1; w < states_.size(); ++w) {
+    const Vector6d twist = jacobians_[w] * u;
+    states_[w].w = twist.head<3>();
+    states_[w].v = twist.tail<3>();
+    const int body = bodies_[w];
+    mj_objectAcceleration(model_.get(), data_.get(), mjOBJ_XBODY, body, biases_[w].data(), 0);
+    biases_[w].tail<3>() += gravity_;  // MuJoCo's world accelerates upwards
+  }
+}
+
+void TreeSpeeds::addRow(std::size_t weld, const Vector6d& factors, Eigen::VectorXd& row) const {
+  if (weld != 0) row += jacobians_[weld].transpose() * factors;
+}
+
+std::optional<SpeedsOfWelds::Own> TreeSpeeds::own(std::size_t joint, int index) const {
+  const OfTree& at = of_tree_[joint];
+  if (at.joint < 0 || model_->jnt_type[at.joint] == mjJNT_BALL) return std::nullopt;
+  const int in_model = at.joint + (at.reversed ? at.count - 1 - index : index);
+  const double sign = at.reversed ? -1 : 1;
+  return Own{model_->jnt_dofadr[in_model], sign, sign * data_->qpos[model_->jnt_qposadr[in_model]]};
+}
+
+Eigen::VectorXd TreeSpeeds::forces(const Eigen::VectorXd& accelerations) {
+  std::copy_n(accelerations.data(), accelerations.size(), data_->qacc);
+  Eigen::VectorXd out(count());
+  mj_rne(model_.get(), data_.get(), 1, out.data());
+  for (std::size_t w = 1; w < states_.size(); ++w) {  // MuJoCo weighs the whole mass, in its centre
+    const WeldedBodies& weld = welded_.welds[w];
+    if (weld.weight == weld.mass) continue;
+    Vector6d missing;
+    missing << -(states_[w].R * weld.weight_arm).cross(weld.weight * gravity_), (weld.mass - weld.weight) * gravity_;
+    out += jacobians_[w].transpose() * missing;
+  }
+  return out;
+}
+
+}  // namespace mujoco
+
+struct MujocoMechanism::Impl {
+  explicit Impl(const Mechanism& of)
+      : mechanism(of),
+        welded(mechanism),
+        tree(mujoco::weldTree(mechanism, welded)),
+        speeds(mechanism, welded, tree),
+        closing(mechanism, welded, tree.cut, speeds) {}
+
+  Mechanism mechanism;
+  WeldedMechanism welded;
+  mujoco::WeldTree tree;
+  mujoco::TreeSpeeds speeds;
+  MechanismClosing closing;
+};
+
+MujocoMechanism::MujocoMechanism(const Mechanism& mechanism) : impl_(std::make_unique<Impl>(mechanism)) {}
+MujocoMechanism::~MujocoMechanism() = default;
+
+Eigen::VectorXd MujocoMechanism::inverseDynamics(const MotorMotion& motion) {
+  Impl& m = *impl_;
+  m.closing.place(motion);
+  return m.closing.effortsByComplement(m.speeds.forces(m.closing.accelerations()) - m.closing.loads());
+}
+
+}  // namespace ursula

@@ -1,0 +1,17 @@
+// Stands in for the formulation if MuJoCo is missing at build time.
+
+#include <stdexcept>
+
+#include "parts/engines/mujoco/mujoco_mechanism.h"
+
+namespace ursula {
+
+struct MujocoMechanism::Impl {};
+
+MujocoMechanism::MujocoMechanism(const Mechanism&) { throw std::runtime_error("this was built without MuJoCo"); }
+MujocoMechanism::~MujocoMechanism() = default;
+Eigen::VectorXd MujocoMechanism::inverseDynamics(const MotorMotion&) {
+  throw std::runtime_error("this was built without MuJoCo");
+}
+
+}  // namespace ursula
