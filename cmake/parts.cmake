@@ -6,7 +6,8 @@
 # FIRST: the first hour needs it, so `./dev validate` builds it. SEES: other parts that it may include. VERBS: their
 # functions are addName, in the *_verb.cpp of its folder. ADDS: what it adds to a verdict, as functions of the same name:
 # engines (addEngines), fast families (addFastFamilies), likely causes (addLikelyCause), provenance (addNAMEProvenance);
-# or to what can be read: models of mechanisms (addMechanismReader).
+# what reads a mechanism's model
+# again (addMechanismReading); or to what can be read: models of mechanisms (addMechanismReader).
 set(URSULA_PARTS all CACHE STRING "Which parts are built: first (what the first hour needs) or all")
 set_property(CACHE URSULA_PARTS PROPERTY STRINGS first all)
 
@@ -39,6 +40,7 @@ function(ursula_part_rows file)
   set(READER "nullptr")
   set(MECHANISM_ENGINES "")
   set(MECHANISM_CAUSE "nullptr")
+  set(READING "nullptr")
   set(DECLARED "")
   foreach(what IN LISTS ARGN)
     if(what STREQUAL "addLikelyCause")
@@ -50,6 +52,9 @@ function(ursula_part_rows file)
     elseif(what STREQUAL "addMechanismEngines")
       string(APPEND DECLARED "void addMechanismEngines(std::vector<MakeMechanismEngine>& rows);\n")
       string(APPEND MECHANISM_ENGINES "  addMechanismEngines(rows);\n")
+    elseif(what STREQUAL "addMechanismReading")
+      set(READING "addMechanismReading")
+      string(APPEND DECLARED "Check addMechanismReading(const MechanismScenario& scenario);\n")
     elseif(what STREQUAL "addMechanismReader")
       set(READER "addMechanismReader()")
       string(APPEND DECLARED "ModelReader addMechanismReader();\n")

@@ -17,6 +17,7 @@ enum class CheckNeeds {
   own_complement,   ///< a subject that computes T and D
   further_engine,   ///< a build that has this formulation
   torque_file,      ///< torques that come from a file
+  model_file,       ///< a machine that a model file describes
 };
 
 /// Checks that answer one question, in the order of reports.

@@ -28,6 +28,14 @@ std::vector<CheckRow> checksOfInput() {
        "rows that were misread", LimitFrom::derived,
        "Zero at the rows and beyond the table; between the rows, 25 roundings of the quintic's terms.",
        "This program interpolates the load's table wrongly: report it."},
+      {"model.reading", "1", N::model_file, G::input, "MuJoCo", "Model file",
+       "MuJoCo's own reader finds the same masses, mass centres, inertias, frames, axes, anchors, joint loads and "
+       "gravity in the model file.",
+       "what has no name in the file, and what both readers take for granted", LimitFrom::derived,
+       "1e-12 of each quantity or of the machine's length, some thousand roundings along its chains of frames; 1e-5 "
+       "for "
+       "inertias that MuJoCo diagonalises, which costs it half of the digits.",
+       "The line names the quantity: look it up in the file, and in what was assumed on reading."},
       {"kinematics.joint_angles", "rad", N::kinematics, G::kinematics, "Simbody", "Joint coordinates",
        "The solver's φ, ψ, θ of (1) to (19), and d, equal those of Simbody's loop by vector geometry.",
        "an error that both would make, in the raw parameters", LimitFrom::measured,

@@ -33,7 +33,7 @@ double thresholdBelow(const Eigen::VectorXd& pivots, Eigen::Index rank) {
 
 }  // namespace
 
-RankedFactors::RankedFactors(const Eigen::MatrixXd& A) : qr_(A) {
+RankedFactors::RankedFactors(const Eigen::MatrixXd& A) : A_(A), qr_(A) {
   const Eigen::VectorXd pivots = qr_.matrixQR().diagonal().cwiseAbs();
   const Eigen::Index rank = pivots.size() > 0 && pivots(0) > 0 ? rankOf(pivots) : 0;
   if (rank == A.cols()) return;
@@ -48,10 +48,16 @@ RankedFactors::RankedFactors(const Eigen::MatrixXd& A) : qr_(A) {
 
 Eigen::MatrixXd RankedFactors::solve(const Eigen::MatrixXd& b) const {
   if (deficient_) return deficient_->solve(b);
-  return qr_.solve(b);
+  const Eigen::MatrixXd once = qr_.solve(b);
+  return once + qr_.solve(b - A_ * once);
 }
 
 Eigen::VectorXd RankedFactors::solveTransposed(const Eigen::VectorXd& b) const {
+  const Eigen::VectorXd once = solveTransposedOnce(b);
+  return once + solveTransposedOnce(b - A_.transpose() * once);
+}
+
+Eigen::VectorXd RankedFactors::solveTransposedOnce(const Eigen::VectorXd& b) const {
   if (transposed_) return transposed_->solve(b);
   const Eigen::Index n = qr_.cols();
   Eigen::VectorXd out = Eigen::VectorXd::Zero(qr_.rows());

@@ -48,6 +48,9 @@ class RankedFactors {
   Eigen::VectorXd solveTransposed(const Eigen::VectorXd& b) const;
 
  private:
+  Eigen::VectorXd solveTransposedOnce(const Eigen::VectorXd& b) const;
+
+  Eigen::MatrixXd A_;  ///< each solution is refined once by it
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
   std::optional<Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>> deficient_, transposed_;
 };

@@ -35,6 +35,8 @@ const char* needsInWords(CheckNeeds needs) {
       return "a build that has this formulation";
     case CheckNeeds::torque_file:
       return "torques that come from a file (--torques)";
+    case CheckNeeds::model_file:
+      return "a machine that a model file describes ([mechanism]), and MuJoCo in this build";
     case CheckNeeds::nothing:
       break;
   }

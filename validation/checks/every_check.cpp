@@ -26,6 +26,7 @@ bool isJudged(const CheckRow& check) {
 std::string lacking(const CheckRow& check, const Scenario& scenario, const SubjectHas& has) {
   const auto unless = [](bool there, const std::string& why) { return there ? "" : why; };
   if (!isJudged(check)) return "no part of this build judges it; ./dev build adds all parts";
+  if (check.needs == CheckNeeds::model_file) return "the scenario describes the machine itself";
   const bool of_files = check.needs == CheckNeeds::nothing || check.needs == CheckNeeds::torque_file;
   if (!has.any_instant && !of_files && check.needs != CheckNeeds::load_history)
     return "a file gives torques alone, at its own instants";
@@ -46,6 +47,7 @@ std::string lacking(const CheckRow& check, const Scenario& scenario, const Subje
     }
     case CheckNeeds::torque_file:
       return unless(!has.any_instant, "the torques do not come from a file");
+    case CheckNeeds::model_file:
     case CheckNeeds::own_reactions:
     case CheckNeeds::nothing:
     case CheckNeeds::any_instant:
@@ -86,7 +88,8 @@ void listEveryCheck(const std::function<std::string(const CheckRow&)>& why_not, 
   for (const CheckRow& wanted : checkCatalogue()) {
     const auto found = std::find_if(result.checks.begin(), result.checks.end(),
                                     [&wanted](const Check& check) { return check.name == wanted.name; });
-    listed.push_back(found != result.checks.end() ? std::move(*found) : notMadeBy(wanted, why_not(wanted), out_of_time));
+    listed.push_back(found != result.checks.end() ? std::move(*found)
+                                                  : notMadeBy(wanted, why_not(wanted), out_of_time));
   }
   result.checks = std::move(listed);
 }

@@ -120,6 +120,7 @@ std::string whyNotOf(const CheckRow& row, const MechanismSubject& subject, const
     return "the bodies' motion is compared instead";
   if (isOf(check, "kinematics") || name == "direct.off_path" || name == "invariance.engines")
     return subject.isNoc() ? "not made for machines of this kind" : "the subject gives efforts alone";
+  if (row.needs == CheckNeeds::model_file) return "this build has no second reader of model files";
   if (row.needs == CheckNeeds::further_engine) return "this build has no such engine for machines of this kind";
   if (row.needs == CheckNeeds::torque_file) return "the efforts are the NOC's own";
   if (subject.isNoc()) return evidence.out_of_time.empty() ? "not made for machines of this kind" : "";
@@ -241,6 +242,7 @@ ValidationResult validateMechanism(const MechanismScenario& scenario, const Mech
   requireTelling(scenario, evidence.largest, evidence.unit);
   deadline.remove();
   result.checks = judgeMechanism(evidence, subject);
+  if (partModelReading() != nullptr) result.checks.push_back(partModelReading()(scenario));
   result.odd_one = oddOneOf(evidence, result.checks, subject);
   result.deviation = deviationOf(evidence, result.checks);
   listEveryCheck([&](const CheckRow& check) { return whyNotOf(check, subject, evidence); }, evidence.out_of_time,

@@ -55,6 +55,10 @@ GivenEfforts givenEfforts(const std::string& name, const std::vector<double>& t,
 /// Engines of the parts in this build, beside Simbody.
 std::vector<MakeMechanismEngine> partMechanismEngines();
 
+/// Reads the scenario's model file with another reader, and compares: `model.reading`. A part does it; null if none.
+using ReadModelAgain = Check(const MechanismScenario& scenario);
+ReadModelAgain* partModelReading();
+
 /// Names likely causes of wrong efforts; a part does it.
 using AddMechanismCause = void(const MechanismScenario& scenario, const MechanismEvidence& evidence,
                                ValidationResult& result);

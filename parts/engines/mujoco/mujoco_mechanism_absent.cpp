@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "parts/engines/mujoco/mujoco_mechanism.h"
+#include "parts/engines/mujoco/mujoco_reading.h"
 
 namespace ursula {
 
@@ -11,6 +12,10 @@ struct MujocoMechanism::Impl {};
 MujocoMechanism::MujocoMechanism(const Mechanism&) { throw std::runtime_error("this was built without MuJoCo"); }
 MujocoMechanism::~MujocoMechanism() = default;
 Eigen::VectorXd MujocoMechanism::inverseDynamics(const MotorMotion&) {
+  throw std::runtime_error("this was built without MuJoCo");
+}
+
+ReadingDifference readByMujoco(const std::filesystem::path&, const MechanismParameters&, const ReadingChoices&) {
   throw std::runtime_error("this was built without MuJoCo");
 }
 

@@ -1,0 +1,74 @@
+// MuJoCo's own reader against this program's, on model files that were made without either.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "parts/engines/mujoco/mujoco_reading.h"
+#include "parts/engines/voting_engines.h"
+#include "parts/exchange/import.h"
+
+namespace ursula {
+namespace {
+
+std::string fileOf(const std::string& name) { return std::string(URSULA_VECTORS) + "/loops/" + name; }
+
+class MujocosReader : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!mujocoAvailable()) GTEST_SKIP() << "without MuJoCo";
+  }
+};
+
+TEST_F(MujocosReader, findsTheSameNumbers) {
+  for (const char* name : {"fourbar.xml", "planar3rrr.xml", "ankle.xml", "delta.xml", "fourbar.urdf"}) {
+    const ReadingDifference found = readByMujoco(fileOf(name), exchange::readModel(fileOf(name)), {});
+    EXPECT_EQ(found.refusal, "") << name;
+    EXPECT_GT(found.bodies, 1) << name;
+    EXPECT_GT(found.joints, 1) << name;
+    EXPECT_LT(found.value, found.limit) << name << ": " << found.where;
+  }
+}
+
+TEST_F(MujocosReader, findsEachWrongNumber) {
+  using Change = std::function<void(MechanismParameters&)>;
+  const MechanismParameters right = exchange::readModel(fileOf("ankle.xml"));
+  const auto body = [](MechanismParameters& m, const std::string& name) -> MechanismBody& {
+    for (MechanismBody& each : m.bodies)
+      if (each.name == name) return each;
+    throw std::logic_error(name);
+  };
+  const auto joint = [](MechanismParameters& m, const std::string& name) -> MechanismJoint& {
+    for (MechanismJoint& each : m.joints)
+      if (each.name == name) return each;
+    throw std::logic_error(name);
+  };
+  const std::pair<const char*, Change> changes[] = {
+      {"mass of foot", [&](auto& m) { body(m, "foot").mass *= 1 + 1e-9; }},
+      {"mass centre of rod0", [&](auto& m) { body(m, "rod0").center_of_mass.x() += 1e-9; }},
+      {"inertia of rod0", [&](auto& m) { body(m, "rod0").inertia *= 1 + 1e-3; }},
+      {"armature of motor0", [&](auto& m) { joint(m, "motor0").rotor_inertia *= 1 + 1e-9; }},
+      {"damping of pitch", [&](auto& m) { joint(m, "pitch").damping *= 1 + 1e-9; }},
+      {"frictionloss of roll", [&](auto& m) { joint(m, "roll").friction = 1e-9; }},
+      {"axis of motor1", [&](auto& m) { joint(m, "motor1").axis[0] *= -1; }},
+      {"ref of roll", [&](auto& m) { joint(m, "roll").position = 1e-9; }},
+      {"gravity", [&](auto& m) { m.gravity.z() = -9.80665; }},
+  };
+  for (const auto& [where, change] : changes) {
+    MechanismParameters wrong = right;
+    change(wrong);
+    const ReadingDifference found = readByMujoco(fileOf("ankle.xml"), wrong, {});
+    EXPECT_GT(found.value, found.limit) << where;
+    EXPECT_EQ(found.where, where);
+  }
+}
+
+TEST_F(MujocosReader, saysWhyItRefusesAFile) {
+  const MechanismParameters machine = exchange::readModel(fileOf("fourbar.xml"));
+  EXPECT_THAT(readByMujoco(fileOf("fourbar.sdf"), machine, {}).refusal, testing::HasSubstr("MuJoCo: "));
+}
+
+}  // namespace
+}  // namespace ursula
