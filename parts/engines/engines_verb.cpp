@@ -8,6 +8,8 @@
 #include "apps/verbs.h"
 #include "base/output_folder.h"
 #include "base/text.h"
+#include "model/mechanism_scenario.h"
+#include "model/scenario_files.h"
 #include "parts/engines/side_by_side/side_by_side.h"
 
 namespace ursula {
@@ -41,6 +43,11 @@ int engines(EnginesOptions options) {
     refuseResults(options.out);
   }
   options.asked.engines = namedEngines(options.engines);
+  if (options.scenario != "-" && isMechanism(scenarioText(options.scenario)))
+    throw UsageError(
+        fmt::format("{}: engines takes scenarios with [manipulator]; `ursula validate` compares the efforts of a "
+                    "[mechanism] in Simbody, MuJoCo and maximal coordinates",
+                    options.scenario));
   const Scenario scenario = openScenario(options.scenario);
   if (!options.out.empty()) requireKept(scenario, options.out, {"engines.json", "engines.csv", "report.html"});
   std::optional<OutputFolder> folder;  // made before the work, so that a folder that cannot be written is found early

@@ -44,7 +44,7 @@ Check addMechanismReading(const MechanismScenario& scenario) {
   const ReadingDifference found = readByMujoco(scenario.model, scenario.read.machine, choices);
   if (!found.refusal.empty())
     return notApplicable(check, "1",
-                         fmt::format("MuJoCo {} does not read the file: {}", mujocoVersion(), found.refusal));
+                         fmt::format("MuJoCo {} does not read the file ({})", mujocoVersion(), found.refusal));
   if (found.bodies + found.joints == 0) return notApplicable(check, "1", "bodies and joints of the file have no names");
   return judged(check, found.value, found.limit, "1",
                 found.limit > 1e-12 ? "inertias that MuJoCo diagonalises keep half of their digits"

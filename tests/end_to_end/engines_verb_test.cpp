@@ -61,5 +61,13 @@ TEST(EnginesVerb, refusesWhatItCannotDo) {
                 });
 }
 
+TEST(EnginesVerb, refusesAMechanism) {
+  const Program ursula;
+  ursula.write("a.toml", "[mechanism]\nfile = \"a.xml\"\n");
+  const UrsulaRun run = ursula("engines a.toml");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("engines takes scenarios with [manipulator]"));
+}
+
 }  // namespace
 }  // namespace ursula

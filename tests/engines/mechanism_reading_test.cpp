@@ -9,6 +9,7 @@
 #include "parts/engines/mujoco/mujoco_reading.h"
 #include "parts/engines/voting_engines.h"
 #include "parts/exchange/import.h"
+#include "tests/base/temporary_folder.h"
 
 namespace ursula {
 namespace {
@@ -30,6 +31,23 @@ TEST_F(MujocosReader, findsTheSameNumbers) {
     EXPECT_GT(found.joints, 1) << name;
     EXPECT_LT(found.value, found.limit) << name << ": " << found.where;
   }
+}
+
+/// A weld that closes a loop joins two bodies, which MuJoCo keeps apart.
+TEST_F(MujocosReader, keepsWeldedClosuresApart) {
+  const std::string text = R"(<mujoco><worldbody>
+    <body name="a"><inertial pos="0 0 0.1" mass="1" diaginertia="1 1 1"/><joint name="j" axis="0 1 0"/></body>
+    <body name="b" pos="0 0 1"><freejoint/><inertial pos="0 0 0.1" mass="2" diaginertia="1 1 1"/></body>
+    </worldbody><equality><weld body1="a" body2="b"/></equality>
+    <actuator><motor joint="j"/></actuator></mujoco>)";
+  const TemporaryFolder folder;
+  const auto file = folder.write("welded.xml", text);
+  ReadingChoices choices;
+  choices.by_eigenvalues = false;
+  const ReadingDifference found = readByMujoco(file, exchange::readModel(file), choices);
+  EXPECT_EQ(found.refusal, "");
+  EXPECT_EQ(found.closures, 1);
+  EXPECT_LT(found.value, found.limit) << found.where;
 }
 
 TEST_F(MujocosReader, findsEachWrongNumber) {

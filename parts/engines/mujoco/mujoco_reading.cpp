@@ -25,9 +25,9 @@ class ComparedReading {
       : ours_(ours),
         choices_(choices),
         mechanism_(ours),
-        welded_(mechanism_),
         model_(mujoco::parseFile(file)),
-        data_(mujoco::dataOf(*model_)) {
+        data_(mujoco::dataOf(*model_)),
+        welded_(Mechanism(withoutWelds())) {
     mj_kinematics(model_.get(), data_.get());
   }
 
@@ -64,6 +64,17 @@ class ComparedReading {
   void numbers(double theirs, double own, const std::string& where) {
     if (choices_.leaves_out && own == 0) return;
     difference(Eigen::Matrix<double, 1, 1>(theirs), Eigen::Matrix<double, 1, 1>(own), std::abs(own), where);
+  }
+
+  MechanismParameters withoutWelds() const {
+    MechanismParameters out = ours_;
+    out.joints.erase(std::remove_if(out.joints.begin(), out.joints.end(),
+                                    [this](const MechanismJoint& joint) {
+                                      return joint.kind == JointKind::fixed &&
+                                             (joint.closure || (model_->neq > 0 && isNamed(joint)));
+                                    }),
+                     out.joints.end());
+    return out;
   }
 
   void compareBody(std::size_t b) {
@@ -179,9 +190,9 @@ class ComparedReading {
   const MechanismParameters& ours_;
   const ReadingChoices& choices_;
   Mechanism mechanism_;
-  WeldedMechanism welded_;
   mujoco::Model model_;
   mujoco::Data data_;
+  WeldedMechanism welded_;  ///< without closures, which weld nothing in MuJoCo's tree
   ReadingDifference out_;
 };
 
@@ -194,6 +205,7 @@ ReadingDifference readByMujoco(const std::filesystem::path& file, const Mechanis
   } catch (const std::runtime_error& refusal) {
     ReadingDifference out;
     out.refusal = refusal.what();
+    std::replace(out.refusal.begin(), out.refusal.end(), '\n', ' ');
     return out;
   }
 }
