@@ -60,9 +60,10 @@ inline void members(Archive& archive, OddOne& odd_one) {
 }
 
 inline void members(Archive& archive, NamedCause& cause) {
-  auto& [kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained] =
-      cause;
-  archive(kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained);
+  auto& [kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained,
+         joint] = cause;
+  archive(kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained,
+          joint);
 }
 
 inline void members(Archive& archive, TermError& each) {
@@ -105,10 +106,10 @@ inline void members(Archive& archive, std::shared_ptr<const Scenario>& asked) {
 }
 
 inline void members(Archive& archive, ValidationResult& result) {
-  auto& [scenario, kind, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause, causes,
-         terms, words, windows, deviation, effort, timeseries, curves, events, asked] = result;
-  archive(scenario, kind, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause, causes,
-          terms, words, windows, deviation, effort, timeseries, curves, events, asked);
+  auto& [scenario, kind, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause,
+         causes, terms, words, windows, deviation, effort, timeseries, curves, events, asked] = result;
+  archive(scenario, kind, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause,
+          causes, terms, words, windows, deviation, effort, timeseries, curves, events, asked);
 }
 
 }  // namespace ursula::python

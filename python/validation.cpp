@@ -157,6 +157,7 @@ void addCause(py::module_& module) {
   };
   add("term", &NamedCause::term);
   add("body", &NamedCause::body);
+  add("joint", &NamedCause::joint);
   add("parameter", &NamedCause::parameter);
   add("unit", &NamedCause::unit);
   add("leg", &NamedCause::leg);

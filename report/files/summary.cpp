@@ -60,6 +60,7 @@ Json causeJson(const NamedCause& cause) {
   };
   addText("term", cause.term);
   addText("body", cause.body);
+  addText("joint", cause.joint);
   if (cause.leg > 0) json["leg"] = cause.leg;
   if (cause.motor > 0) json["motor"] = cause.motor;
   if (!cause.legs.empty()) json["legs"] = cause.legs;

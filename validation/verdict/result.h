@@ -36,7 +36,7 @@ const char* name(CauseKind kind);
 struct NamedCause {
   CauseKind kind = CauseKind::scale;
   std::string term = {};       ///< "gravity", "gyroscopic", "angular_velocity", …
-  std::string body = {};       ///< "platform", "proximal", "distal", "legs" or "all"
+  std::string body = {};       ///< "platform", "proximal", "distal", "legs" or "all"; of a mechanism, the file's name
   std::string parameter = {};  ///< "manipulator.leg.4.distal.mass"
   std::string unit = {};       ///< of expected, found and uncertainty
   std::optional<double> expected = {}, found = {}, uncertainty = {};
@@ -44,6 +44,7 @@ struct NamedCause {
   std::vector<int> legs = {};  ///< of order: each column's leg; else the motors or legs concerned; 1-based
   std::optional<double> from_s = {}, to_s = {};                 ///< the interval in which the efforts are wrong
   double explained = std::numeric_limits<double>::quiet_NaN();  ///< share of the deviation's square; NaN: unknown
+  std::string joint = {};                                       ///< of a mechanism, by the file's name
 };
 
 /// The `term` of the error by which answers to a repeated question differ.
