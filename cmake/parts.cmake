@@ -5,9 +5,9 @@
 #
 # FIRST: the first hour needs it, so `./dev validate` builds it. SEES: other parts that it may include. VERBS: their
 # functions are addName, in the *_verb.cpp of its folder. ADDS: what it adds to a verdict, as functions of the same name:
-# engines (addEngines), fast families (addFastFamilies), likely causes (addLikelyCause), provenance (addNAMEProvenance);
-# what reads a mechanism's model
-# again (addMechanismReading); or to what can be read: models of mechanisms (addMechanismReader).
+# engines (addEngines, addMechanismEngines), fast families (addFastFamilies), likely causes (addLikelyCause,
+# addMechanismCause), provenance (addNAMEProvenance), what reads a mechanism's model again (addMechanismReading); or to
+# what can be read: models of mechanisms (addMechanismReader).
 set(URSULA_PARTS all CACHE STRING "Which parts are built: first (what the first hour needs) or all")
 set_property(CACHE URSULA_PARTS PROPERTY STRINGS first all)
 

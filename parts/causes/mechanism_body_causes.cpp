@@ -1,0 +1,182 @@
+#include <cmath>
+
+#include "parts/causes/mechanism_tried.h"
+
+namespace ursula::mechanisms {
+namespace {
+
+/// One body at one instant, in world axes.
+struct BodyView {
+  Matrix3d R, own, I;  ///< from the reference pose; of the body's own axes; the tensor
+  double mass;
+  Vector3d omega, alpha, a, g;
+  Vector3d alpha_bias, a_bias;  ///< what the motors' accelerations do not make
+  Matrix3d at_reference;        ///< the tensor in the reference pose
+  Vector3d from_origin;         ///< from the body's own origin to its mass centre
+
+  Vector3d gyroscopic() const { return omega.cross(I * omega); }
+};
+
+BodyView viewOf(const Mechanism& mechanism, const Instant& at, std::size_t b) {
+  const MechanismBody& body = mechanism.bodies()[b];
+  const BodyState& state = at.work.bodies[b];
+  BodyView out;
+  out.R = state.displacement.linear();
+  out.own = out.R * body.frame.linear();
+  out.I = out.R * body.inertia * out.R.transpose();
+  out.mass = body.mass;
+  out.omega = state.twist.head<3>();
+  out.alpha = state.twist_rate.head<3>();
+  out.a = state.twist_rate.tail<3>();
+  out.g = body.weightless ? Vector3d(Vector3d::Zero()) : mechanism.gravity();
+  const Vector6d bias = at.biasOf(b);
+  out.alpha_bias = bias.head<3>();
+  out.a_bias = bias.tail<3>();
+  out.at_reference = body.inertia;
+  out.from_origin = out.R * (body.center_of_mass - body.frame.translation());
+  return out;
+}
+
+Vector6d wrench(const Vector3d& moment, const Vector3d& force) {
+  Vector6d out;
+  out << moment, force;
+  return out;
+}
+
+/// A part of the wrench that a body's motion needs, or what a mistake makes of it.
+struct BodyTerm {
+  CauseKind kind;
+  const char* term;
+  const char* detail;
+  Vector6d (*of)(const BodyView&);
+};
+
+Matrix3d pointTensor(const BodyView& b) {
+  const Vector3d& r = b.from_origin;
+  return b.mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
+}
+
+Vector6d momentOf(const Matrix3d& I, const Vector3d& omega, const Vector3d& alpha) {
+  return wrench(I * alpha + omega.cross(I * omega), Vector3d::Zero());
+}
+
+const Vector3d none = Vector3d::Zero();
+
+/// Terms that a solver may leave out, scale or take with the wrong sign.
+const BodyTerm terms[] = {
+    {CauseKind::missing_term, "gravity", "", [](const BodyView& b) { return wrench(none, -b.mass * b.g); }},
+    {CauseKind::missing_term, "gyroscopic", "", [](const BodyView& b) { return wrench(b.gyroscopic(), none); }},
+    {CauseKind::missing_term, "coriolis", "every product of velocities",
+     [](const BodyView& b) { return wrench(b.I * b.alpha_bias + b.gyroscopic(), b.mass * b.a_bias); }},
+    {CauseKind::missing_term, "centripetal", "what velocities make of the accelerations",
+     [](const BodyView& b) { return wrench(b.I * b.alpha_bias, b.mass * b.a_bias); }},
+    {CauseKind::missing_term, "centripetal", "what velocities make of the mass centres' accelerations",
+     [](const BodyView& b) { return wrench(none, b.mass * b.a_bias); }},
+    {CauseKind::missing_term, "centripetal", "what velocities make of the angular accelerations",
+     [](const BodyView& b) { return wrench(b.I * b.alpha_bias, none); }},
+    {CauseKind::missing_term, "inertia", "mass, inertia and weight",
+     [](const BodyView& b) { return wrench(b.I * b.alpha + b.gyroscopic(), b.mass * (b.a - b.g)); }},
+    {CauseKind::missing_term, "inertia", "forces and moments of inertia, without the weight",
+     [](const BodyView& b) { return wrench(b.I * b.alpha + b.gyroscopic(), b.mass * b.a); }},
+    {CauseKind::missing_term, "inertia", "the moments of inertia",
+     [](const BodyView& b) { return wrench(b.I * b.alpha + b.gyroscopic(), none); }},
+    {CauseKind::missing_term, "inertia", "the force of inertia of the mass",
+     [](const BodyView& b) { return wrench(none, b.mass * b.a); }},
+};
+
+/// What a mistake puts in place of a body's moment.
+const BodyTerm mistakes[] = {
+    {CauseKind::frame, "orientation", "the tensor in the axes of the file's pose",
+     [](const BodyView& b) { return momentOf(b.at_reference, b.omega, b.alpha); }},
+    {CauseKind::frame, "orientation", "the tensor in the body's axes",
+     [](const BodyView& b) { return momentOf(b.own.transpose() * b.I * b.own, b.omega, b.alpha); }},
+    {CauseKind::frame, "angular_velocity", "in the body's axes, with a tensor in the world's",
+     [](const BodyView& b) {
+       const Vector3d omega = b.own.transpose() * b.omega;
+       return wrench(b.I * b.alpha + omega.cross(b.I * omega), none);
+     }},
+    {CauseKind::frame, "angular_velocity", "in the axes of the file's pose, with a tensor in the world's",
+     [](const BodyView& b) {
+       const Vector3d omega = b.R.transpose() * b.omega;
+       return wrench(b.I * b.alpha + omega.cross(b.I * omega), none);
+     }},
+    {CauseKind::frame, "angular_velocity", "the gyroscopic moment in the body's axes, not turned back",
+     [](const BodyView& b) { return wrench(b.I * b.alpha + b.own.transpose() * b.gyroscopic(), none); }},
+    {CauseKind::frame, "angular_velocity", "of the world, with a tensor in the body's axes",
+     [](const BodyView& b) {
+       return wrench(b.I * b.alpha + b.omega.cross(b.own.transpose() * b.I * b.own * b.omega), none);
+     }},
+    {CauseKind::frame, "angular_acceleration", "in the body's axes, with a tensor in the world's",
+     [](const BodyView& b) { return wrench(b.I * (b.own.transpose() * b.alpha) + b.gyroscopic(), none); }},
+    {CauseKind::frame, "angular_acceleration", "in the axes of the file's pose, with a tensor in the world's",
+     [](const BodyView& b) { return wrench(b.I * (b.R.transpose() * b.alpha) + b.gyroscopic(), none); }},
+    {CauseKind::reference_point, "inertia", "about the body's origin instead of its mass centre",
+     [](const BodyView& b) { return momentOf(b.I + pointTensor(b), b.omega, b.alpha); }},
+    {CauseKind::reference_point, "inertia", "moved to the mass centre twice",
+     [](const BodyView& b) { return momentOf(b.I - pointTensor(b), b.omega, b.alpha); }},
+};
+
+VectorXd effortsOf(const EffortResidual& data, std::size_t b, Vector6d (*of)(const BodyView&)) {
+  return data.each(
+      [&](const Instant& at) -> VectorXd { return at.work.T[b].transpose() * of(viewOf(*data.mechanism, at, b)); });
+}
+
+std::vector<std::size_t> heavyBodies(const Mechanism& mechanism) {
+  std::vector<std::size_t> out;
+  for (std::size_t b = 0; b < mechanism.bodies().size(); ++b) {
+    const MechanismBody& body = mechanism.bodies()[b];
+    if (!body.fixed && (body.mass != 0 || !body.inertia.isZero(0))) out.push_back(b);
+  }
+  return out;
+}
+
+Vector6d rightMoment(const BodyView& b) { return momentOf(b.I, b.omega, b.alpha); }
+
+}  // namespace
+
+void addScaledTerm(const NamedCause& term, const VectorXd& part, const std::string& detail, std::vector<Tried>& out) {
+  addFixed(out, term, -part, detail);
+  NamedCause sign = term, scale = term;
+  sign.kind = CauseKind::sign;
+  addFixed(out, sign, -2 * part, detail);
+  if (term.term == "gravity") return;  // gravity has a number of its own
+  scale.kind = CauseKind::scale;
+  scale.expected = 1;
+  Tried fitted{scale, [part](const VectorXd& x) { return VectorXd(x(0) * part); }, VectorXd::Ones(1)};
+  fitted.detail = detail;
+  fitted.finish = [](const VectorXd& x, const VectorXd& uncertainty, NamedCause& named) {
+    named.found = 1 + x(0);
+    named.uncertainty = uncertainty(0);
+    constexpr double degrees = 57.29577951308232;
+    for (const double known : {degrees, 1 / degrees, 1e3, 1e-3, 1e6, 1e-6, degrees * degrees, 1e9, 1e-9})
+      if (std::abs(*named.found / known - 1) < 1e-6) named.kind = CauseKind::units;
+    return true;
+  };
+  out.push_back(fitted);
+}
+
+void addBodyCauses(const EffortResidual& data, std::vector<Tried>& out) {
+  const std::vector<std::size_t> bodies = heavyBodies(*data.mechanism);
+  const auto addAll = [&](const BodyTerm& term, bool is_mistake) {
+    VectorXd sum = VectorXd::Zero(data.noc.size());
+    std::vector<VectorXd> parts;
+    for (const std::size_t b : bodies) {
+      parts.push_back(effortsOf(data, b, term.of));
+      if (is_mistake) parts.back() -= effortsOf(data, b, rightMoment);
+      sum += parts.back();
+    }
+    NamedCause named{term.kind, term.term, "all"};
+    if (is_mistake)
+      addFixed(out, named, sum, term.detail);
+    else
+      addScaledTerm(named, sum, term.detail, out);
+    for (std::size_t i = 0; i < bodies.size() && bodies.size() > 1; ++i) {
+      named.body = data.mechanism->bodies()[bodies[i]].name;
+      addFixed(out, named, is_mistake ? parts[i] : VectorXd(-parts[i]), term.detail);
+    }
+  };
+  for (const BodyTerm& term : terms) addAll(term, false);
+  for (const BodyTerm& mistake : mistakes) addAll(mistake, true);
+}
+
+}  // namespace ursula::mechanisms

@@ -1,0 +1,292 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "parts/causes/mechanism_tried.h"
+#include "validation/mechanism/validate_mechanism.h"
+
+namespace ursula {
+namespace mechanisms {
+namespace {
+
+/// An explanation leaves at most these multiples of the limits everywhere (one for the given efforts, one for the
+/// cause's), and less than chance would. Another one that leaves little more is as good.
+constexpr double may_be_beyond = 2, may_be_chance = 0.1, as_good = 6;
+/// A likely explanation of one part leaves less than this share of the deviation; one that is listed leaves less.
+constexpr double may_remain = 0.01, worth_listing = 0.3;
+constexpr std::size_t most_instants = 300, most_listed = 4, least_instants = 4;
+
+EffortResidual residualOf(const MechanismEvidence& evidence) {
+  EffortResidual out;
+  out.mechanism = evidence.scenario->mechanism.get();
+  out.motion = evidence.motion;
+  out.motors = evidence.efforts_in.size();
+  const std::size_t rows = evidence.samples.size(), count = std::min(rows, most_instants);
+  const auto size = static_cast<Eigen::Index>(count) * out.motors;
+  out.noc.resize(size), out.found.resize(size), out.limit.resize(size);
+  MotorEfforts most = MotorEfforts::Zero(out.motors), right = most;
+  for (const MechanismSample& sample : evidence.samples) {
+    most = most.cwiseMax(sample.subject.cwiseAbs());
+    right = right.cwiseMax(sample.scale.cwiseAbs());
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const MechanismSample& sample = evidence.samples[count == 1 ? 0 : i * (rows - 1) / (count - 1)];
+    const auto at = static_cast<Eigen::Index>(i) * out.motors;
+    out.t.push_back(sample.motion.t);
+    out.instants.push_back(instantAt(*evidence.motion, sample.motion.t));
+    out.noc.segment(at, out.motors) = sample.noc;
+    out.found.segment(at, out.motors) = sample.subject;
+    for (Eigen::Index k = 0; k < out.motors; ++k) {
+      const double growth = right(k) > 0 ? std::max(1.0, most(k) / right(k)) : 1;
+      const double rounds = growth * evidence.limit(sample, k) / evidence.efforts_in(k) + sample.given(k);
+      out.limit(at + k) = std::max(rounds, 1e-300);
+    }
+  }
+  return out;
+}
+
+/// Whether the motors stand still: too many causes then make the same few numbers.
+bool isAtRest(const EffortResidual& data) {
+  const Instant& first = data.instants.front();
+  return std::all_of(data.instants.begin(), data.instants.end(), [&](const Instant& each) {
+    return each.motion.q == first.motion.q && each.motion.qddot == first.motion.qddot;
+  });
+}
+
+std::vector<Fitted> fittedCauses(const EffortResidual& data) {
+  std::vector<Tried> tried;
+  for (const auto add :
+       {addEffortCauses, addClosureCauses, addJointTerms, addBodyCauses, addJointNumbers, addBodyNumbers})
+    add(data, tried);
+  std::vector<Fitted> out = fitAll(tried, data);
+  addDelay(data, out);
+  std::stable_sort(out.begin(), out.end(), [](const Fitted& a, const Fitted& b) { return a.numbers < b.numbers; });
+  return out;
+}
+
+bool explainsAll(const Fitted& one, double beyond = may_be_beyond) {
+  return one.beyond <= beyond && one.unexplained <= may_be_chance && (one.of_found <= may_be_chance || one.beyond <= 1);
+}
+
+/// "body.crank.inertia" of "body.crank.inertia.xx" and of itself; empty for numbers that are no entries.
+std::string vectorOf(const NamedCause& cause) {
+  const std::string owner = "body." + cause.body + ".";
+  for (const char* key : {"inertia", "center_of_mass"})
+    if (cause.parameter.rfind(owner + key, 0) == 0) return owner + key;
+  return "";
+}
+
+/// Whether both are entries of one vector or tensor, of which this motion shows one number alone.
+bool areOneVector(const NamedCause& a, const NamedCause& b) {
+  return a.kind == CauseKind::parameter && b.kind == a.kind && !vectorOf(a).empty() && vectorOf(a) == vectorOf(b);
+}
+
+/// Whether both are one mistake: the same term, of one or of all where the others make no difference.
+bool areOneMistake(const NamedCause& a, const NamedCause& b) {
+  if (a.kind != b.kind || a.kind == CauseKind::parameter) return false;
+  const auto isOne = [](const std::string& body) { return !body.empty() && body != "all"; };
+  if (a.joint != b.joint && !a.joint.empty() && !b.joint.empty()) return false;
+  if (a.body != b.body && isOne(a.body) && isOne(b.body)) return false;
+  const auto of_velocities = [](const NamedCause& each) {
+    return each.term == "coriolis" || each.term == "centripetal" || each.term == "gyroscopic";
+  };
+  if (a.kind == CauseKind::missing_term && of_velocities(a) && of_velocities(b))
+    return a.term == b.term || a.body == b.body;
+  if (a.kind == CauseKind::scale || a.kind == CauseKind::offset)
+    return a.term == b.term && a.body == b.body && a.motor == b.motor;
+  return a.term == b.term;
+}
+
+/// Whether a tie is with a rarer mistake: another density of the same body, or of all where nothing else acts.
+bool isRarer(const NamedCause& first, const NamedCause& other) {
+  const auto isOfAll = [](const NamedCause& each, const char* term) { return each.term == term && each.body == "all"; };
+  if (first.kind != CauseKind::parameter && isOfAll(first, "") && isOfAll(other, "inertia")) return true;
+  return first.kind == CauseKind::parameter && other.kind == CauseKind::scale && other.term == "inertia" &&
+         first.body == other.body;
+}
+
+NamedCause withShare(const Fitted& one) {
+  NamedCause out = one.named;
+  out.explained = std::clamp(1 - one.unexplained * one.unexplained, 0.0, 1.0);
+  return out;
+}
+
+std::string percentOf(const Fitted& one) {
+  const double explained = 1 - one.unexplained * one.unexplained;
+  if (one.unexplained < 1e-6) return "more than 99.9999 % of the deviation";
+  return fmt::format("{:.4f} % of the deviation", 100 * std::max(0.0, explained));
+}
+
+std::string othersIn(const std::vector<const Fitted*>& others) {
+  std::string out;
+  for (std::size_t i = 0; i < others.size() && i < most_listed; ++i)
+    out += (i == 0 ? "; as well explained by: " : "; ") + inWords(*others[i]);
+  if (others.size() > most_listed) out += fmt::format("; and {} more", others.size() - most_listed);
+  return out;
+}
+
+/// Names the cause that explains everything, or lists those that do; false if none does.
+bool nameAll(const std::vector<Fitted>& fitted, ValidationResult& result) {
+  const auto found = std::find_if(fitted.begin(), fitted.end(), [](const Fitted& one) { return explainsAll(one); });
+  if (found == fitted.end()) return false;
+  Fitted first = *found;
+  std::vector<const Fitted*> others;
+  for (const Fitted& one : fitted) {
+    if (&one == &*found || one.numbers > first.numbers || !explainsAll(one, as_good)) continue;
+    if (isRarer(first.named, one.named)) continue;
+    if (areOneVector(first.named, one.named)) {
+      first.named.parameter = vectorOf(first.named);
+      first.named.expected = first.named.found = first.named.uncertainty = std::nullopt;
+      continue;
+    }
+    if (!areOneMistake(first.named, one.named)) {
+      others.push_back(&one);
+      continue;
+    }
+    if (one.named.body != first.named.body) first.named.body.clear();
+    if (one.named.joint != first.named.joint && one.named.body != "all") first.named.joint.clear();
+    if (one.detail != first.detail) first.detail.clear();
+  }
+  result.cause_words.claim = CauseClaim::likely;
+  result.cause_words.cause = fmt::format("{}, which explains {}{}", inWords(first), percentOf(first), othersIn(others));
+  if (others.empty()) {
+    result.cause = withShare(first);
+    return true;
+  }
+  result.causes.push_back(withShare(first));
+  for (const Fitted* one : others) result.causes.push_back(withShare(*one));
+  return true;
+}
+
+/// Whether every value is one of few digits, and the right efforts are near enough to it.
+bool nameDigits(const EffortResidual& data, ValidationResult& result) {
+  constexpr double single = 1.2e-7;
+  const VectorXd left = data.residual();
+  const auto all = [&](const auto& holds) {
+    for (Eigen::Index i = 0; i < left.size(); ++i)
+      if (!holds(data.found(i), std::abs(left(i)), data.limit(i))) return false;
+    return true;
+  };
+  std::string words;
+  if (all([&](double found, double off, double limit) {
+        return found == static_cast<double>(static_cast<float>(found)) && off <= single / rounding * limit;
+      }))
+    words = "the efforts have single precision";
+  for (int digits = 1; digits <= 12 && words.empty(); ++digits) {
+    const double unit = std::pow(10.0, -digits);
+    if (all([&](double found, double off, double limit) {
+          return std::abs(found / unit - std::round(found / unit)) <= 1e-6 && off <= 1.01 * unit + limit;
+        }))
+      words = fmt::format("the efforts have {} decimals", digits);
+  }
+  if (words.empty()) return false;
+  result.cause = NamedCause{CauseKind::digits};
+  result.cause->body = "all";
+  result.cause->explained = 1;
+  result.cause_words.cause = words;
+  result.cause_words.claim = CauseClaim::likely;
+  return true;
+}
+
+/// Names an interval in which the efforts are wrong, if they are right in a tenth of the motion at least.
+bool nameWindow(const EffortResidual& data, ValidationResult& result) {
+  std::vector<std::size_t> off;
+  std::vector<int> motors;
+  for (std::size_t i = 0; i < data.t.size(); ++i) {
+    bool is_off = false;
+    for (Eigen::Index k = 0; k < data.motors; ++k) {
+      const Eigen::Index at = static_cast<Eigen::Index>(i) * data.motors + k;
+      if (std::abs(data.found(at) - data.noc(at)) <= data.limit(at)) continue;
+      is_off = true;
+      if (std::find(motors.begin(), motors.end(), static_cast<int>(k)) == motors.end())
+        motors.push_back(static_cast<int>(k));
+    }
+    if (is_off) off.push_back(i);
+  }
+  if (off.size() < 3) return false;
+  const std::size_t span = off.back() + 1 - off.front();
+  if (20 * off.size() < 19 * span || 10 * span > 9 * data.t.size()) return false;
+  NamedCause named{CauseKind::window};
+  named.from_s = data.t[off.front()];
+  named.to_s = data.t[off.back()];
+  named.explained = 1;
+  if (motors.size() == 1) named.motor = motors.front() + 1;
+  if (static_cast<Eigen::Index>(motors.size()) == data.motors) named.body = "all";
+  result.cause = named;
+  result.cause_words.cause = fmt::format("right but from t = {:.6g} to {:.6g} s", *named.from_s, *named.to_s);
+  result.cause_words.claim = CauseClaim::interval;
+  return true;
+}
+
+/// Lists what explains most of the deviation.
+void listParts(std::vector<Fitted> fitted, const EffortResidual& data, ValidationResult& result) {
+  fitted.erase(std::remove_if(fitted.begin(), fitted.end(),
+                              [&](const Fitted& one) {
+                                return one.unexplained > worth_listing || one.of_found > worth_listing ||
+                                       10 * one.numbers > data.noc.size();
+                              }),
+               fitted.end());
+  std::stable_sort(fitted.begin(), fitted.end(),
+                   [](const Fitted& a, const Fitted& b) { return a.unexplained < b.unexplained; });
+  result.cause_words.claim = CauseClaim::none;
+  result.cause_words.cause = "no simple explanation";
+  if (fitted.empty()) return;
+  for (std::size_t i = 0; i < fitted.size() && i < most_listed; ++i) result.causes.push_back(withShare(fitted[i]));
+  const Fitted& first = fitted.front();
+  if (first.unexplained > may_remain) {
+    result.cause_words.cause += fmt::format("; the best, {}, explains only {}", inWords(first), percentOf(first));
+    return;
+  }
+  result.cause_words.claim = CauseClaim::part;
+  result.cause_words.cause = fmt::format(
+      "a likely part: {}, which explains {}; what remains is up to {:.3g} times the limit of rounding and "
+      "digits",
+      inWords(first), percentOf(first), first.beyond);
+}
+
+/// "motor 1 by up to 0.2 N m at t = 0.3 s"; empty if every motor is within its limits.
+std::string deviationIn(const EffortResidual& data) {
+  std::string out;
+  for (Eigen::Index k = 0; k < data.motors; ++k) {
+    double largest = 0, at_s = 0;
+    for (std::size_t i = 0; i < data.t.size(); ++i) {
+      const Eigen::Index at = static_cast<Eigen::Index>(i) * data.motors + k;
+      const double off = std::abs(data.found(at) - data.noc(at));
+      if (!(off > data.limit(at)) || off <= largest) continue;
+      largest = off;
+      at_s = data.t[i];
+    }
+    if (largest > 0)
+      out += fmt::format("{}motor {} by up to {:.4g} {} at t = {:.6g} s", out.empty() ? "" : "; ", k + 1, largest,
+                         data.mechanism->motor(static_cast<std::size_t>(k)).slides() ? "N" : "N m", at_s);
+  }
+  return out;
+}
+
+}  // namespace
+}  // namespace mechanisms
+
+AddMechanismCause addMechanismCause;
+
+void addMechanismCause(const MechanismScenario&, const MechanismEvidence& evidence, ValidationResult& result) {
+  using namespace mechanisms;
+  if (evidence.samples.empty() || evidence.motion == nullptr) return;
+  const EffortResidual data = residualOf(evidence);
+  result.cause_words.off = deviationIn(data);
+  if (result.cause_words.off.empty() || !data.found.allFinite()) return;
+  if (!nameDigits(data, result)) {
+    std::vector<Fitted> fitted;
+    if (data.instants.size() >= least_instants && !isAtRest(data)) fitted = fittedCauses(data);
+    if (!nameAll(fitted, result) && !nameWindow(data, result)) listParts(fitted, data, result);
+  }
+  result.findings.push_back({"torques that are off", result.cause_words.off});
+  result.findings.push_back({"likely cause", result.cause_words.cause});
+  const bool likely = result.cause_words.claim == CauseClaim::likely;
+  for (Check& check : result.checks)
+    if (check.verdict == Verdict::fail)
+      check.off = fmt::format("Off: {}{}{}", result.cause_words.off, likely ? ". Likely cause: " : ": ",
+                              result.cause_words.cause);
+}
+
+}  // namespace ursula

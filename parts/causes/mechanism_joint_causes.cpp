@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "parts/causes/mechanism_tried.h"
+
+namespace ursula::mechanisms {
+namespace {
+
+/// A force along joint coordinates, as the motors feel it: what they must overcome.
+struct JointTerm {
+  const char* term;
+  const char* detail;
+  double (*of)(const MechanismJoint&, const Coordinate&);
+};
+
+double dampingOf(const MechanismJoint& j, const Coordinate& c) { return j.damping * c.rate; }
+double coulombOf(const MechanismJoint& j, const Coordinate& c) {
+  return j.friction == 0 ? 0 : j.friction * std::tanh(c.rate / j.smoothing());
+}
+bool hasSpring(const MechanismJoint& j) { return j.kind == JointKind::revolute || j.kind == JointKind::prismatic; }
+double springOf(const MechanismJoint& j, const Coordinate& c) {
+  return hasSpring(j) ? j.stiffness * (c.value - j.spring_reference) : 0;
+}
+
+const JointTerm joint_terms[] = {
+    {"friction", "", [](const MechanismJoint& j, const Coordinate& c) { return dampingOf(j, c) + coulombOf(j, c); }},
+    {"friction", "the viscous part", dampingOf},
+    {"friction", "the Coulomb part", coulombOf},
+    {"rotor_inertia", "",
+     [](const MechanismJoint& j, const Coordinate& c) { return j.rotor_inertia * c.acceleration; }},
+    {"springs", "", springOf},
+};
+
+template <class Of>
+VectorXd jointEfforts(const EffortResidual& data, std::size_t joint, const Of& of) {
+  const MechanismJoint& its = data.mechanism->joints()[joint];
+  return data.each([&](const Instant& at) -> VectorXd {
+    VectorXd out = VectorXd::Zero(data.motors);
+    for (const Coordinate& each : at.coordinates)
+      if (each.joint == joint) out += each.row.transpose() * of(its, each);
+    return out;
+  });
+}
+
+bool isMotor(const Mechanism& mechanism, std::size_t joint) {
+  const auto& motors = mechanism.motors();
+  return std::find(motors.begin(), motors.end(), joint) != motors.end();
+}
+
+void addTerm(const EffortResidual& data, const JointTerm& term, std::vector<Tried>& out) {
+  const Mechanism& mechanism = *data.mechanism;
+  VectorXd of_motors = VectorXd::Zero(data.noc.size()), of_passive = of_motors;
+  int motors = 0, passive = 0;
+  for (std::size_t j = 0; j < mechanism.joints().size(); ++j) {
+    const MechanismJoint& joint = mechanism.joints()[j];
+    if (!joint.isLoaded()) continue;
+    const VectorXd part = jointEfforts(data, j, term.of);
+    if (part.isZero(0)) continue;
+    NamedCause named{CauseKind::missing_term, term.term};
+    named.joint = joint.name;
+    addFixed(out, named, -part, term.detail);
+    named.kind = CauseKind::sign;
+    addFixed(out, named, -2 * part, term.detail);
+    (isMotor(mechanism, j) ? of_motors : of_passive) += part;
+    ++(isMotor(mechanism, j) ? motors : passive);
+  }
+  NamedCause named{CauseKind::missing_term, term.term, "all"};
+  if (motors + passive > 1) addScaledTerm(named, of_motors + of_passive, term.detail, out);
+  if (passive > 1 && motors > 0) named.body = "passive", addFixed(out, named, -of_passive, term.detail);
+  if (motors > 1 && passive > 0) named.body = "motors", addFixed(out, named, -of_motors, term.detail);
+}
+
+/// A number of a joint to which the efforts are proportional.
+struct JointNumber {
+  const char* key;
+  const char *unit, *unit_of_slide;
+  double MechanismJoint::*member;
+  double (*per_unit)(const MechanismJoint&, const Coordinate&);
+};
+
+const JointNumber joint_numbers[] = {
+    {"damping", "N m s", "N s/m", &MechanismJoint::damping,
+     [](const MechanismJoint&, const Coordinate& c) { return c.rate; }},
+    {"friction", "N m", "N", &MechanismJoint::friction,
+     [](const MechanismJoint& j, const Coordinate& c) { return std::tanh(c.rate / j.smoothing()); }},
+    {"armature", "kg m^2", "kg", &MechanismJoint::rotor_inertia,
+     [](const MechanismJoint&, const Coordinate& c) { return c.acceleration; }},
+    {"stiffness", "N m/rad", "N/m", &MechanismJoint::stiffness,
+     [](const MechanismJoint& j, const Coordinate& c) { return hasSpring(j) ? c.value - j.spring_reference : 0; }},
+    {"spring_reference", "rad", "m", &MechanismJoint::spring_reference,
+     [](const MechanismJoint& j, const Coordinate&) { return hasSpring(j) ? -j.stiffness : 0; }},
+};
+
+void addNumber(const EffortResidual& data, std::size_t j, const JointNumber& number, std::vector<Tried>& out) {
+  const MechanismJoint& joint = data.mechanism->joints()[j];
+  const VectorXd column = jointEfforts(data, j, number.per_unit);
+  if (column.isZero(0)) return;
+  const double expected = joint.*(number.member);
+  const bool is_reference = number.member == &MechanismJoint::spring_reference;
+  Tried tried{{CauseKind::parameter, "", "", fmt::format("joint.{}.{}", joint.name, number.key),
+               joint.slides() ? number.unit_of_slide : number.unit, expected},
+              [column](const VectorXd& x) { return VectorXd(x(0) * column); },
+              VectorXd::Ones(1)};
+  tried.named.joint = joint.name;
+  tried.finish = [expected, is_reference](const VectorXd& x, const VectorXd& uncertainty, NamedCause& named) {
+    named.found = expected + x(0);
+    named.uncertainty = uncertainty(0);
+    return is_reference || *named.found >= -uncertainty(0);
+  };
+  out.push_back(tried);
+}
+
+}  // namespace
+
+void addJointTerms(const EffortResidual& data, std::vector<Tried>& out) {
+  for (const JointTerm& term : joint_terms) addTerm(data, term, out);
+}
+
+void addJointNumbers(const EffortResidual& data, std::vector<Tried>& out) {
+  for (std::size_t j = 0; j < data.mechanism->joints().size(); ++j)
+    for (const JointNumber& number : joint_numbers) addNumber(data, j, number, out);
+}
+
+}  // namespace ursula::mechanisms

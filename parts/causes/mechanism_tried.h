@@ -1,0 +1,78 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "parts/causes/mechanism_instants.h"
+#include "validation/mechanism/mechanism_evidence.h"
+#include "validation/verdict/result.h"
+
+namespace ursula::mechanisms {
+
+/// Efforts that differ from the right ones, of all instants one after the other.
+struct EffortResidual {
+  const Mechanism* mechanism = nullptr;
+  const LoopMotion* motion = nullptr;
+  std::vector<double> t;
+  std::vector<Instant> instants;  ///< of the motion; those of `noc`
+  VectorXd noc, found;            ///< N·m or N
+  VectorXd limit;                 ///< possible difference of right efforts: rounding and the file's digits
+  Eigen::Index motors = 1;
+  double growth = 1;  ///< how many times larger the found efforts are than what rounds in the right ones
+
+  VectorXd residual() const { return found - noc; }
+  /// Puts the efforts of each instant one after the other.
+  template <class Of>
+  VectorXd each(const Of& of) const {
+    VectorXd out(noc.size());
+    for (std::size_t i = 0; i < instants.size(); ++i)
+      out.segment(static_cast<Eigen::Index>(i) * motors, motors) = of(instants[i]);
+    return out;
+  }
+  /// The largest ratio of an entry to its limit.
+  double beyond(const VectorXd& left) const;
+};
+
+/// One mistake with numbers x that are fitted, zero if there is none.
+struct Tried {
+  NamedCause named;
+  std::function<VectorXd(const VectorXd& x)> change;  ///< of the right efforts
+  VectorXd steps = {};                                ///< for differences by each number; empty without numbers
+  /// Sets what the fitted numbers mean; returns false if no machine can have them.
+  std::function<bool(const VectorXd& x, const VectorXd& uncertainty, NamedCause& named)> finish = {};
+  std::string detail = {};  ///< what the named cause does not tell; goes into the words
+};
+
+/// A mistake after its fit.
+struct Fitted {
+  NamedCause named;
+  std::string detail;
+  int numbers = 0;
+  double unexplained = 1;   ///< ‖left‖ / ‖residual‖
+  double of_found = 1;      ///< ‖left‖ / ‖found‖
+  double beyond = 1e300;    ///< the largest remainder, in multiples of its limit
+  VectorXd predicted = {};  ///< the change of the efforts
+};
+
+/// Adds a mistake without numbers.
+void addFixed(std::vector<Tried>& out, const NamedCause& named, VectorXd change, const std::string& detail = "");
+
+void addBodyCauses(const EffortResidual& data, std::vector<Tried>& out);
+void addBodyNumbers(const EffortResidual& data, std::vector<Tried>& out);
+void addJointTerms(const EffortResidual& data, std::vector<Tried>& out);
+void addJointNumbers(const EffortResidual& data, std::vector<Tried>& out);
+void addClosureCauses(const EffortResidual& data, std::vector<Tried>& out);
+void addEffortCauses(const EffortResidual& data, std::vector<Tried>& out);
+void addDelay(const EffortResidual& data, std::vector<Fitted>& out);
+
+/// Adds (1 + x) times a term; 0 is left out and −1 has the wrong sign, which are mistakes without numbers.
+void addScaledTerm(const NamedCause& term, const VectorXd& part, const std::string& detail, std::vector<Tried>& out);
+
+/// Fits by least squares, Gauss–Newton if the efforts are not linear in the numbers. Drops what has no effect.
+std::vector<Fitted> fitAll(const std::vector<Tried>& tried, const EffortResidual& data);
+
+/// "the mass of 'coupler' is 2.31 kg instead of 2.1 kg".
+std::string inWords(const Fitted& cause);
+
+}  // namespace ursula::mechanisms
