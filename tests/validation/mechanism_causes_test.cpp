@@ -1,0 +1,331 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "parts/exchange/mechanism_reader.h"
+#include "validation/mechanism/validate_mechanism.h"
+
+namespace ursula {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using testing::HasSubstr;
+
+const char* const machine_names[] = {"fourbar", "planar3rrr", "ankle", "delta"};
+
+/// A machine of tests/vectors/loops/ and efforts for its motion.
+class Machine {
+ public:
+  explicit Machine(const std::string& name)
+      : scenario_(readMechanism(std::string(URSULA_LOOPS "/") + name + ".toml", &exchange::readMechanismModel)) {
+    constexpr int count = 61;
+    for (int i = 0; i < count; ++i) t_.push_back(scenario_.trajectory->duration() * i / (count - 1));
+  }
+
+  const Mechanism& mechanism() const { return *scenario_.mechanism; }
+  const MechanismScenario& scenario() const { return scenario_; }
+  const std::vector<double>& instants() const { return t_; }
+  MechanismParameters parameters() const { return mechanism().parameters(); }
+
+  /// Right efforts of a machine with other numbers, `late` by a time.
+  std::vector<MotorEfforts> efforts(const MechanismParameters& of, double late = 0) const {
+    const Mechanism changed(of);
+    const LoopSolver solver(changed);
+    const LoopMotion motion(solver, *scenario_.trajectory);
+    LoopWork work;
+    std::vector<MotorEfforts> out;
+    for (const double t : t_) out.push_back(motion.inverseDynamics(std::fmod(t - late + 2, 2), work));
+    return out;
+  }
+  std::vector<MotorEfforts> efforts() const { return efforts(parameters()); }
+
+  ValidationResult judge(const std::vector<MotorEfforts>& efforts) const {
+    auto given = std::make_shared<GivenEfforts>();
+    given->name = "efforts";
+    given->t = t_;
+    given->efforts = efforts;
+    given->precision.assign(efforts.size(), MotorEfforts::Zero(efforts.front().size()));
+    MechanismSubject subject;
+    subject.about = {"efforts", Formulation::external};
+    subject.given = given;
+    return validateMechanism(scenario_, subject);
+  }
+
+ private:
+  MechanismScenario scenario_;
+  std::vector<double> t_;
+};
+
+template <class Change>
+ValidationResult judgeChanged(const Machine& machine, const Change& change) {
+  MechanismParameters parameters = machine.parameters();
+  change(parameters);
+  return machine.judge(machine.efforts(parameters));
+}
+
+template <class Change>
+ValidationResult judgeEfforts(const Machine& machine, const Change& change) {
+  std::vector<MotorEfforts> efforts = machine.efforts();
+  for (std::size_t i = 0; i < efforts.size(); ++i) change(i, efforts[i]);
+  return machine.judge(efforts);
+}
+
+/// The file's tree as a machine of its own, with its closures cut and every hinge driven.
+class OpenMachine {
+ public:
+  explicit OpenMachine(const Machine& machine)
+      : closed_(machine.mechanism()), motion_(closed_, *machine.scenario().trajectory) {
+    MechanismParameters parameters = machine.parameters();
+    auto& joints = parameters.joints;
+    joints.erase(std::remove_if(joints.begin(), joints.end(), [](const auto& each) { return each.closure; }),
+                 joints.end());
+    for (const MechanismJoint& joint : joints) {
+      const bool is_hinge = joint.kind == JointKind::revolute;
+      possible_ = possible_ && (is_hinge || joint.kind == JointKind::fixed);
+      const auto known = std::find(parameters.motors.begin(), parameters.motors.end(), joint.name);
+      if (is_hinge && known == parameters.motors.end()) parameters.motors.push_back(joint.name);
+    }
+    if (possible_) tree_ = std::make_unique<LoopSolver>(Mechanism(parameters));
+  }
+
+  bool isPossible() const { return possible_; }
+
+  /// Efforts of all hinges at the closed machine's motion, its velocity terms left out of the passive joints'
+  /// accelerations if asked; those of the motors come first.
+  VectorXd forces(double t, bool with_bias, MatrixXd& N) const {
+    const MotorMotion right = motion_.trajectory().at(t);
+    const VectorXd none = VectorXd::Zero(right.q.size());
+    N.resize(static_cast<Eigen::Index>(tree_->mechanism().motorCount()), right.q.size());
+    for (Eigen::Index k = 0; k < right.q.size(); ++k)
+      N.col(k) = hinges({t, right.q, VectorXd::Unit(right.q.size(), k), none}).qdot;
+    MotorMotion all = hinges(right);
+    if (!with_bias) all.qddot = N * right.qddot;
+    loops::LoopPose pose = tree_->assembled();
+    tree_->moveTo(all.q, pose);
+    LoopWork work;
+    return tree_->inverseDynamics(all, pose, work);
+  }
+
+ private:
+  MotorMotion hinges(const MotorMotion& motors) const {
+    LoopWork work;
+    loops::LoopPose pose = motion_.near(motors.t);
+    closed_.moveTo(motors.q, pose);
+    closed_.kinematics(motors, pose, work);
+    const auto count = static_cast<Eigen::Index>(tree_->mechanism().motorCount());
+    MotorMotion out{motors.t, VectorXd::Zero(count), VectorXd::Zero(count), VectorXd::Zero(count)};
+    const Eigen::Index own = motors.q.size();
+    out.q.head(own) = motors.q, out.qdot.head(own) = motors.qdot, out.qddot.head(own) = motors.qddot;
+    for (Eigen::Index k = own; k < count; ++k)
+      for (const LoopSolver::JointValue& each : closed_.joints(work))
+        if (each.name == tree_->mechanism().motor(static_cast<std::size_t>(k)).name + "_rad")
+          out.q(k) = each.value, out.qdot(k) = each.rate, out.qddot(k) = each.acceleration;
+    return out;
+  }
+
+  LoopSolver closed_;
+  LoopMotion motion_;
+  std::unique_ptr<LoopSolver> tree_;
+  bool possible_ = true;
+};
+
+template <class Of>
+std::vector<MotorEfforts> fromTree(const Machine& machine, const OpenMachine& open, bool with_bias, const Of& of) {
+  std::vector<MotorEfforts> out;
+  for (const double t : machine.instants()) {
+    MatrixXd N;
+    const VectorXd forces = open.forces(t, with_bias, N);
+    out.push_back(of(forces, N));
+  }
+  return out;
+}
+
+std::size_t lastBody(const Mechanism& mechanism) {
+  std::size_t out = 0;
+  for (std::size_t b = 0; b < mechanism.bodies().size(); ++b)
+    if (!mechanism.bodies()[b].fixed && mechanism.bodies()[b].mass > 0) out = b;
+  return out;
+}
+
+class MechanismCause : public testing::TestWithParam<const char*> {
+ protected:
+  MechanismCause() : machine(GetParam()) {}
+  const Machine machine;
+};
+
+TEST_P(MechanismCause, NamesFactorSignAndOffset) {
+  const ValidationResult scaled = judgeEfforts(machine, [](std::size_t, auto& tau) { tau *= 1.01; });
+  ASSERT_TRUE(scaled.cause) << scaled.cause_words.cause;
+  EXPECT_EQ(scaled.cause->kind, CauseKind::scale);
+  EXPECT_NEAR(scaled.cause->found.value_or(0), 1.01, 1e-9);
+  const ValidationResult milli = judgeEfforts(machine, [](std::size_t, auto& tau) { tau *= 1000; });
+  ASSERT_TRUE(milli.cause) << milli.cause_words.cause;
+  EXPECT_EQ(milli.cause->kind, CauseKind::units);
+  const ValidationResult negative = judgeEfforts(machine, [](std::size_t, auto& tau) { tau(0) *= -1; });
+  ASSERT_TRUE(negative.cause) << negative.cause_words.cause;
+  EXPECT_EQ(negative.cause->kind, CauseKind::sign);
+  const ValidationResult shifted = judgeEfforts(machine, [](std::size_t, auto& tau) { tau(0) += 0.1; });
+  ASSERT_TRUE(shifted.cause) << shifted.cause_words.cause;
+  EXPECT_EQ(shifted.cause->kind, CauseKind::offset);
+  EXPECT_NEAR(shifted.cause->found.value_or(0), 0.1, 1e-9);
+}
+
+TEST_P(MechanismCause, NamesOrderDelayDigitsAndWindow) {
+  if (machine.mechanism().motorCount() > 1) {
+    const ValidationResult swapped = judgeEfforts(machine, [](std::size_t, auto& tau) { std::swap(tau(0), tau(1)); });
+    ASSERT_TRUE(swapped.cause) << swapped.cause_words.cause;
+    EXPECT_EQ(swapped.cause->kind, CauseKind::order);
+  }
+  const ValidationResult late = machine.judge(machine.efforts(machine.parameters(), 0.004));
+  ASSERT_TRUE(late.cause) << late.cause_words.cause;
+  EXPECT_EQ(late.cause->kind, CauseKind::delay);
+  EXPECT_NEAR(late.cause->found.value_or(0), 0.004, 1e-8);
+  const ValidationResult single = judgeEfforts(
+      machine, [](std::size_t, auto& tau) { tau = tau.template cast<float>().template cast<double>().eval(); });
+  ASSERT_TRUE(single.cause) << single.cause_words.cause;
+  EXPECT_EQ(single.cause->kind, CauseKind::digits);
+  const ValidationResult window = judgeEfforts(machine, [](std::size_t i, auto& tau) {
+    if (i > 20 && i < 30) tau(0) += 0.1 * static_cast<double>(i % 4 + 1);
+  });
+  ASSERT_TRUE(window.cause) << window.cause_words.cause;
+  EXPECT_EQ(window.cause->kind, CauseKind::window);
+}
+
+TEST_P(MechanismCause, NamesNumbersOfTheMachine) {
+  const std::size_t body = lastBody(machine.mechanism());
+  const std::string name = machine.mechanism().bodies()[body].name;
+  const ValidationResult heavy = judgeChanged(machine, [&](auto& p) { p.bodies[body].mass *= 1.1; });
+  ASSERT_TRUE(heavy.cause) << heavy.cause_words.cause;
+  EXPECT_EQ(heavy.cause->parameter, "body." + name + ".mass");
+  EXPECT_EQ(heavy.cause->body, name);
+  EXPECT_NEAR(heavy.cause->found.value_or(0), 1.1 * machine.mechanism().bodies()[body].mass, 1e-9);
+  EXPECT_THAT(heavy.cause_words.cause, HasSubstr("the mass of '" + name + "' is "));
+  const ValidationResult weak = judgeChanged(machine, [](auto& p) { p.gravity *= 0.999; });
+  ASSERT_TRUE(weak.cause) << weak.cause_words.cause;
+  EXPECT_EQ(weak.cause->term, "gravity");
+  const std::size_t motor = machine.mechanism().motors().front();
+  const ValidationResult damped = judgeChanged(machine, [&](auto& p) { p.joints[motor].damping += 0.05; });
+  ASSERT_TRUE(damped.cause) << damped.cause_words.cause;
+  EXPECT_EQ(damped.cause->joint, machine.mechanism().motor(0).name);
+}
+
+TEST_P(MechanismCause, NamesMissingTerms) {
+  const ValidationResult weightless = judgeChanged(machine, [](auto& p) { p.gravity.setZero(); });
+  ASSERT_TRUE(weightless.cause) << weightless.cause_words.cause;
+  EXPECT_EQ(weightless.cause->kind, CauseKind::missing_term);
+  EXPECT_EQ(weightless.cause->term, "gravity");
+  const std::size_t body = lastBody(machine.mechanism());
+  const ValidationResult without = judgeChanged(machine, [&](auto& p) {
+    p.bodies[body].mass = 0;
+    p.bodies[body].inertia.setZero();
+  });
+  ASSERT_TRUE(without.cause) << without.cause_words.cause;
+  EXPECT_EQ(without.cause->kind, CauseKind::missing_term);
+  EXPECT_EQ(without.cause->term, "inertia");
+  EXPECT_EQ(without.cause->body, machine.mechanism().bodies()[body].name);
+}
+
+/// The right efforts, and for each body what `of` puts in place of its moment, from the tensor of the file's pose.
+template <class Of>
+std::vector<MotorEfforts> withMoments(const Machine& machine, const Of& of) {
+  const LoopSolver solver(machine.mechanism());
+  const LoopMotion motion(solver, *machine.scenario().trajectory);
+  std::vector<MotorEfforts> out;
+  LoopWork work;
+  for (const double t : machine.instants()) {
+    out.push_back(motion.inverseDynamics(t, work));
+    for (std::size_t b = 0; b < work.bodies.size(); ++b) {
+      const Matrix3d R = work.bodies[b].displacement.linear(), I_0 = machine.mechanism().bodies()[b].inertia;
+      const Vector3d omega = work.bodies[b].twist.head<3>(), alpha = work.bodies[b].twist_rate.head<3>();
+      const Matrix3d I = R * I_0 * R.transpose();
+      const Vector3d right = I * alpha + omega.cross(I * omega);
+      out.back() += work.T[b].topRows<3>().transpose() * (of(I_0, I, omega, alpha) - right);
+    }
+  }
+  return out;
+}
+
+TEST_P(MechanismCause, NamesFrameAndGyroscopicMoment) {
+  if (std::string(GetParam()) != "ankle") GTEST_SKIP() << "the ankle's bodies turn about several axes";
+  const ValidationResult still = machine.judge(
+      withMoments(machine, [](const Matrix3d& I_0, const Matrix3d&, const Vector3d& omega, const Vector3d& alpha) {
+        return Vector3d(I_0 * alpha + omega.cross(I_0 * omega));
+      }));
+  ASSERT_TRUE(still.cause) << still.cause_words.cause;
+  EXPECT_EQ(still.cause->kind, CauseKind::frame);
+  EXPECT_EQ(still.cause->term, "orientation");
+  const ValidationResult without =
+      machine.judge(withMoments(machine, [](const Matrix3d&, const Matrix3d& I, const Vector3d&,
+                                            const Vector3d& alpha) { return Vector3d(I * alpha); }));
+  ASSERT_TRUE(without.cause) << without.cause_words.cause;
+  EXPECT_EQ(without.cause->kind, CauseKind::missing_term);
+  EXPECT_EQ(without.cause->term, "gyroscopic");
+}
+
+TEST_P(MechanismCause, NamesFrictionOfPassiveJoints) {
+  const auto& joints = machine.mechanism().joints();
+  const auto& motors = machine.mechanism().motors();
+  const auto isPassive = [&](std::size_t j) { return std::find(motors.begin(), motors.end(), j) == motors.end(); };
+  bool any = false;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    any = any || (isPassive(j) && (joints[j].damping != 0 || joints[j].friction != 0));
+  if (!any) GTEST_SKIP() << "nothing rubs at its passive joints";
+  const ValidationResult result = judgeChanged(machine, [&](auto& p) {
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      if (isPassive(j)) p.joints[j].damping = p.joints[j].friction = 0;
+  });
+  ASSERT_TRUE(result.cause) << result.cause_words.cause;
+  EXPECT_EQ(result.cause->kind, CauseKind::missing_term);
+  EXPECT_EQ(result.cause->term, "friction");
+}
+
+TEST_P(MechanismCause, NamesNoneOfTwoMistakes) {
+  const std::size_t body = lastBody(machine.mechanism());
+  const ValidationResult result = judgeChanged(machine, [&](auto& p) {
+    p.bodies[body].mass *= 1.1;
+    p.joints[machine.mechanism().motors().front()].damping += 0.1;
+    p.gravity *= 1.01;
+  });
+  EXPECT_FALSE(result.cause) << result.cause_words.cause;
+}
+
+TEST_P(MechanismCause, NamesNoneOfRandomErrors) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0, 0.05);
+  const ValidationResult result = judgeEfforts(machine, [&](std::size_t, auto& tau) {
+    for (Eigen::Index k = 0; k < tau.size(); ++k) tau(k) += noise(random);
+  });
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  EXPECT_FALSE(result.cause) << result.cause_words.cause;
+}
+
+TEST_P(MechanismCause, NamesOpenLoopsAndClosuresBias) {
+  const OpenMachine open(machine);
+  if (!open.isPossible()) GTEST_SKIP() << "its tree has other joints than hinges";
+  const Eigen::Index n = machine.efforts().front().size();
+  const auto expect = [&](const std::vector<MotorEfforts>& efforts, const char* term) {
+    const ValidationResult result = machine.judge(efforts);
+    ASSERT_TRUE(result.cause) << term << ": " << result.cause_words.cause;
+    EXPECT_EQ(result.cause->kind, CauseKind::closure) << result.cause_words.cause;
+    EXPECT_EQ(result.cause->term, term);
+  };
+  expect(fromTree(machine, open, true, [&](const auto& forces, const auto&) { return forces.head(n).eval(); }), "open");
+  expect(
+      fromTree(machine, open, false, [](const auto& forces, const auto& N) { return (N.transpose() * forces).eval(); }),
+      "bias");
+  expect(fromTree(machine, open, true,
+                  [&](const auto& forces, const auto& N) {
+                    return (N * (N.transpose() * N).inverse() * N.transpose() * forces).head(n).eval();
+                  }),
+         "least_squares");
+}
+
+INSTANTIATE_TEST_SUITE_P(Loops, MechanismCause, testing::ValuesIn(machine_names),
+                         [](const auto& of) { return std::string(of.param); });
+
+}  // namespace
+}  // namespace ursula
