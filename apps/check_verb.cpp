@@ -3,7 +3,6 @@
 #include <memory>
 #include <vector>
 
-#include "apps/files_apart.h"
 #include "apps/mechanism.h"
 #include "apps/output.h"
 #include "apps/verbs.h"
@@ -26,12 +25,9 @@ struct CheckOptions {
 /// Prints warnings to standard output and errors to standard error; returns false if there is an error.
 bool checkOne(const std::string& file, const CheckOptions& options) {
   try {
-    if (const auto mechanism = openMechanism(file)) {
-      requireApart(*mechanism, options.picture);
-      return checkMechanism(*mechanism, options.picture) == exit_passed;
-    }
-    const Scenario scenario = readScenarioOrInput(file);
-    requireApart(scenario, {options.picture});
+    const AnyScenario any = readAny(file, {options.picture});
+    if (any.mechanism) return checkMechanism(*any.mechanism, options.picture) == exit_passed;
+    const Scenario& scenario = *any.manipulator;
     for (const std::string& note : readAs(scenario)) say("{}\n", note);
     const std::vector<std::string> odd = warnings(scenario);
     const auto tell = [on_stderr = options.picture == "-"](const std::string& text) {

@@ -68,11 +68,16 @@ std::string namedTwice(const CLI::App& app) {
 }
 
 void requireApart(const Scenario& scenario, std::initializer_list<std::string> written) {
+  requireApart(scenario.text, scenario.file, written);
+}
+
+void requireApart(const std::string& text, const std::filesystem::path& scenario,
+                  std::initializer_list<std::string> written) {
   if (std::none_of(written.begin(), written.end(), namesFile)) return;  // then the text need not be parsed again
-  for (const std::filesystem::path& read : filesNamedBy(scenario))
+  for (const std::filesystem::path& read : filesNamedBy(text, scenario))
     for (const std::string& file : written)
       if (namesFile(file) && areSame(file, read.string()))
-        throw UsageError(fmt::format("{}: {} reads this file, expected another file", file, scenario.file.string()));
+        throw UsageError(fmt::format("{}: {} reads this file, expected another file", file, scenario.string()));
 }
 
 void requireApart(const MechanismScenario& scenario, const std::string& written) {

@@ -16,6 +16,9 @@ std::string namedTwice(const CLI::App& app);
 
 /// Throws UsageError if one of the options' values `written` is a file that the scenario names, such as its samples.
 void requireApart(const Scenario& scenario, std::initializer_list<std::string> written);
+/// The same for a scenario of either machine, by its text.
+void requireApart(const std::string& text, const std::filesystem::path& scenario,
+                  std::initializer_list<std::string> written);
 
 /// The same for a mechanism's scenario and its model.
 void requireApart(const MechanismScenario& scenario, const std::string& written);

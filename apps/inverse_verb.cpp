@@ -22,9 +22,11 @@ struct InverseOptions {
 };
 
 int inverse(const InverseOptions& options) {
-  if (const auto mechanism = openMechanism(options.scenario))
-    return inverseOfMechanism(*mechanism, options.samples, options.out);
-  const Scenario scenario = openScenario(options.scenario, {options.out});
+  const AnyScenario any = openAny(options.scenario, {options.out});
+  if (any.mechanism && options.format != RowFormat::csv)
+    throw UsageError(fmt::format("--format: {} has [mechanism], expected csv", options.scenario));
+  if (any.mechanism) return inverseOfMechanism(*any.mechanism, options.samples, options.out);
+  const Scenario& scenario = *any.manipulator;
   const BlockTable table = inverseBlocks(scenario, options.samples);
   Progress progress(scenario.name);
   const auto written = [&](double share) {

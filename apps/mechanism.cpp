@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/files_apart.h"
 #include "apps/output.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
@@ -18,19 +19,20 @@
 namespace ursula {
 namespace {
 
-/// Turns errors of the loops into errors at the scenario.
-template <class Run>
-auto along(const MechanismScenario& scenario, const Run& run) {
-  try {
-    return run();
-  } catch (const LoopError& error) {
-    throw ScenarioError(fmt::format("{}: error: {}", scenario.file.string(), error.what()));
+/// A basic string of TOML.
+std::string tomlString(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
   }
+  return out + '"';
 }
 
-/// Splits NAME=COLUMN, where NAME is t_s or an effort's column by the contract.
-std::vector<std::pair<std::string, std::string>> columnMap(const std::vector<std::string>& texts,
-                                                           const Mechanism& mechanism) {
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> effortColumns(const std::vector<std::string>& texts,
+                                                               const Mechanism& mechanism) {
   std::vector<std::string> known = {"t_s"};
   for (std::size_t k = 0; k < mechanism.motorCount(); ++k) known.push_back(motorColumn(mechanism, k, "tau"));
   std::vector<std::pair<std::string, std::string>> out;
@@ -48,27 +50,28 @@ std::vector<std::pair<std::string, std::string>> columnMap(const std::vector<std
   return out;
 }
 
-/// A basic string of TOML.
-std::string tomlString(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + '"';
+AnyScenario readAny(const std::string& file, std::initializer_list<std::string> written) {
+  const std::string text = scenarioTextOrInput(file);
+  const std::filesystem::path name = namedInput(file);
+  AnyScenario out;
+  if (isMechanism(text))
+    out.mechanism = parseMechanism(text, name, partModelReader());
+  else
+    out.manipulator = parseScenario(text, name);
+  requireApart(text, name, written);
+  return out;
 }
 
-}  // namespace
-
-std::optional<MechanismScenario> openMechanism(const std::filesystem::path& file) {
-  if (file == "-") return std::nullopt;
-  const std::string text = scenarioText(file);
-  if (!isMechanism(text)) return std::nullopt;
-  return parseMechanism(text, file, partModelReader());
+AnyScenario openAny(const std::string& file, std::initializer_list<std::string> written) {
+  AnyScenario out = readAny(file, written);
+  if (out.manipulator) sayWarnings(*out.manipulator);
+  if (out.mechanism)
+    for (const std::string& text : out.mechanism->read.warnings) say("{}\n", withoutControls(text));
+  return out;
 }
 
 int inverseOfMechanism(const MechanismScenario& scenario, int samples, const std::string& out) {
-  return along(scenario, [&] {
+  return alongLoops(scenario, [&] {
     const Mechanism& mechanism = *scenario.mechanism;
     const MechanismAlong path(scenario);
     std::vector<std::string> names = {"t_s"};
@@ -112,7 +115,7 @@ MechanismAlong pathWithPicture(const MechanismScenario& scenario, const std::str
 }  // namespace
 
 int checkMechanism(const MechanismScenario& scenario, const std::string& picture_file) {
-  return along(scenario, [&] {
+  return alongLoops(scenario, [&] {
     const MechanismAlong path = pathWithPicture(scenario, picture_file);
     LoopWork work;
     for (const double t : equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples))
@@ -135,12 +138,12 @@ int checkMechanism(const MechanismScenario& scenario, const std::string& picture
 ValidationResult judgeMechanism(const MechanismScenario& scenario, const std::string& torques,
                                 const std::vector<std::string>& map, const ExternalSolverOptions& solver,
                                 const MechanismOptions& options) {
-  return along(scenario, [&] {
+  return alongLoops(scenario, [&] {
     if (!solver.command.empty()) return validateExternalSolver(scenario, solver, options);
     MechanismSubject subject;
     if (!torques.empty()) {
       subject.given = std::make_shared<const GivenEfforts>(readMotorEfforts(
-          torques, *scenario.mechanism, scenario.trajectory->duration(), columnMap(map, *scenario.mechanism)));
+          torques, *scenario.mechanism, scenario.trajectory->duration(), effortColumns(map, *scenario.mechanism)));
       subject.about = {subject.given->name, Formulation::external, CalledBy::torques};
     }
     return validateMechanism(scenario, subject, options);

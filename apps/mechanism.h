@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
 
 #include "model/mechanism_scenario.h"
+#include "nocsolver/loops/loop_solver.h"
 #include "validation/outside/external_solver.h"
 #include "validation/verdict/result.h"
 
@@ -12,8 +14,30 @@ namespace ursula {
 
 // What the verbs do with a scenario that has [mechanism].
 
-/// Reads the scenario if it has [mechanism]. Throws ScenarioError and InputError. Does not read standard input.
-std::optional<MechanismScenario> openMechanism(const std::filesystem::path& file);
+/// A scenario of either machine.
+struct AnyScenario {
+  std::optional<MechanismScenario> mechanism;
+  std::optional<Scenario> manipulator;  ///< if it is no mechanism
+};
+/// Reads a scenario of either machine, `-` for standard input. Throws ScenarioError and InputError, and UsageError if
+/// one of the options' values `written` is a file that it names. Warnings are not said.
+AnyScenario readAny(const std::string& file, std::initializer_list<std::string> written = {});
+/// Reads one for a verb that uses its motion, and says on standard error what is odd of it.
+AnyScenario openAny(const std::string& file, std::initializer_list<std::string> written = {});
+
+/// Returns the result of `run`; errors of the loops become errors at the scenario.
+template <class Run>
+auto alongLoops(const MechanismScenario& scenario, const Run& run) {
+  try {
+    return run();
+  } catch (const LoopError& error) {
+    throw ScenarioError(scenario.file.string() + ": error: " + error.what());
+  }
+}
+
+/// Splits each NAME=COLUMN of `--map`, where NAME is t_s or an effort's column by the contract.
+std::vector<std::pair<std::string, std::string>> effortColumns(const std::vector<std::string>& texts,
+                                                               const Mechanism& mechanism);
 
 /// Writes motion, efforts and joints at equally spaced instants, as CSV.
 int inverseOfMechanism(const MechanismScenario& scenario, int samples, const std::string& out);

@@ -85,20 +85,6 @@ const std::vector<double>* columnOf(const CsvTable& table, const Mechanism& mech
   return table.find(std::string(of) == "q" ? joint + unit : fmt::format("{}_{}{}", of, joint, unit));
 }
 
-/// Reads one quantity of all motors, a row for each instant; empty if no motor has it.
-Eigen::MatrixXd columnsOf(const CsvTable& table, const Mechanism& mechanism, const char* of, bool required) {
-  Eigen::MatrixXd out;
-  const auto n = static_cast<Eigen::Index>(mechanism.motorCount());
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const std::vector<double>* column = columnOf(table, mechanism, static_cast<std::size_t>(k), of);
-    if (column == nullptr && !required && k == 0) return out;
-    if (column == nullptr) column = &table.at(motorColumn(mechanism, static_cast<std::size_t>(k), of));
-    if (k == 0) out.resize(static_cast<Eigen::Index>(column->size()), n);
-    out.col(k) = Eigen::Map<const Eigen::VectorXd>(column->data(), static_cast<Eigen::Index>(column->size()));
-  }
-  return out;
-}
-
 std::unique_ptr<MotorTrajectory> readMotorSamples(const TomlSection& table, const Mechanism& mechanism) {
   table.allowOnly(mechanismTable("trajectory.samples"));
   std::string name;
@@ -106,10 +92,10 @@ std::unique_ptr<MotorTrajectory> readMotorSamples(const TomlSection& table, cons
   std::filesystem::path file = name;
   if (file.is_relative()) file = std::filesystem::path(table.file()).parent_path() / file;
   const CsvTable read = readCsv(file);
-  const Eigen::MatrixXd rates = columnsOf(read, mechanism, "qdot", false);
-  const Eigen::MatrixXd accelerations = columnsOf(read, mechanism, "qddot", false);
+  const Eigen::MatrixXd rates = motorColumns(read, mechanism, "qdot", false);
+  const Eigen::MatrixXd accelerations = motorColumns(read, mechanism, "qddot", false);
   try {
-    return makeMotorSamples(read.at("t_s"), columnsOf(read, mechanism, "q", true), rates, accelerations);
+    return makeMotorSamples(read.at("t_s"), motorColumns(read, mechanism, "q", true), rates, accelerations);
   } catch (const InvalidParameter& refusal) {
     throw CsvError(fmt::format("{}: error: {}: {}, expected {}", file.string(), refusal.place(), refusal.value(),
                                refusal.bound()));
@@ -130,6 +116,7 @@ std::unique_ptr<MotorTrajectory> readMotion(const TomlSection& table, const Mech
 }
 
 void assemble(const TomlSection& document, ModelReader reader, MechanismScenario& out) {
+  requireOneMachine(document);
   document.allowOnly(mechanismTable(""));
   Scenario common;
   readJudging(document, common);
@@ -180,6 +167,19 @@ MechanismScenario parseMechanism(const std::string& text, const std::filesystem:
 
 MechanismScenario readMechanism(const std::filesystem::path& file, ModelReader reader) {
   return parseMechanism(scenarioText(file), file, reader);
+}
+
+Eigen::MatrixXd motorColumns(const CsvTable& table, const Mechanism& mechanism, const char* of, bool required) {
+  Eigen::MatrixXd out;
+  const auto n = static_cast<Eigen::Index>(mechanism.motorCount());
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const std::vector<double>* column = columnOf(table, mechanism, static_cast<std::size_t>(k), of);
+    if (column == nullptr && !required && k == 0) return out;
+    if (column == nullptr) column = &table.at(motorColumn(mechanism, static_cast<std::size_t>(k), of));
+    if (k == 0) out.resize(static_cast<Eigen::Index>(column->size()), n);
+    out.col(k) = Eigen::Map<const Eigen::VectorXd>(column->data(), static_cast<Eigen::Index>(column->size()));
+  }
+  return out;
 }
 
 std::string motorColumn(const Mechanism& mechanism, std::size_t k, const char* quantity) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/csv.h"
 #include "model/mechanism.h"
 #include "model/motor_trajectory.h"
 #include "model/scenario.h"
@@ -60,5 +61,9 @@ MechanismScenario readMechanism(const std::filesystem::path& file, ModelReader r
 
 /// Returns the names of a motor's columns: "q_1_rad", "qdot_1_rad_s", "qddot_1_rad_s2", "tau_1_Nm", or with m and N.
 std::string motorColumn(const Mechanism& mechanism, std::size_t k, const char* quantity);
+
+/// Reads one quantity of all motors ("q", "qdot", "qddot") from a table, a row for each of its rows: columns by number
+/// or by the joint's own name. Empty if the first motor has none and it is not `required`; else throws CsvError.
+Eigen::MatrixXd motorColumns(const CsvTable& table, const Mechanism& mechanism, const char* quantity, bool required);
 
 }  // namespace ursula

@@ -16,6 +16,8 @@
 namespace ursula {
 namespace {
 
+constexpr const char* verbs_with_mechanism = "check, validate, inverse, direct, simulate and sweep";
+
 /// The name must suit a folder, because results go into a folder of that name.
 std::string readName(const TomlSection& document) {
   std::string name;
@@ -89,6 +91,7 @@ Scenario assemble(const TomlSection& document) {
   document.allowOnly(scenarioTable(""));
   Scenario scenario;
   readJudging(document, scenario);
+  if (!document.has("manipulator")) document.missing("manipulator", "a table [manipulator] or [mechanism]");
   scenario.manipulator = std::make_shared<Manipulator>(readManipulator(document.requiredSection("manipulator")));
   scenario.trajectory = readTrajectory(document.requiredSection("trajectory"));
   if (const auto table = document.section("load")) scenario.load = readLoad(*table);
@@ -96,6 +99,18 @@ Scenario assemble(const TomlSection& document) {
 }
 
 }  // namespace
+
+void requireOneMachine(const TomlSection& document) {
+  if (document.has("manipulator") && document.has("mechanism"))
+    document.fail("mechanism", "beside [manipulator], expected one of the two");
+}
+
+void requireManipulator(const TomlSection& document) {
+  requireOneMachine(document);
+  if (document.has("mechanism"))
+    document.fail("mechanism", "this verb takes a scenario with [manipulator], and this one has [mechanism], which " +
+                                   std::string(verbs_with_mechanism) + " take");
+}
 
 void readJudging(const TomlSection& document, Scenario& scenario) {
   scenario.name = readName(document);
@@ -107,6 +122,11 @@ Scenario parseScenario(const std::string& text, const std::filesystem::path& fil
   toml::table table = parseToml(text, file.string());
   takeTolerances(table, file.string());  // the text keeps them, for statedTolerances()
   const TomlSection document(table, "", file.string());
+  try {
+    requireManipulator(document);
+  } catch (const PlacedError& error) {
+    throw error.in(text);  // alone: what else such a text has is not judged by the keys of a manipulator
+  }
   try {
     Scenario scenario = assemble(document);
     scenario.file = file;

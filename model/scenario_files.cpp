@@ -14,7 +14,7 @@ namespace ursula {
 
 std::vector<std::filesystem::path> makeFilesAbsolute(toml::table& document, const std::filesystem::path& scenario) {
   std::vector<std::filesystem::path> found;
-  for (const char* part : {"trajectory", "load"}) {
+  for (const char* part : {"trajectory", "load", "mechanism"}) {
     toml::table* table = document[part].as_table();
     toml::value<std::string>* name = table == nullptr ? nullptr : (*table)["file"].as_string();
     if (name == nullptr) continue;
@@ -24,10 +24,14 @@ std::vector<std::filesystem::path> makeFilesAbsolute(toml::table& document, cons
   return found;
 }
 
+std::vector<std::filesystem::path> filesNamedBy(const std::string& text, const std::filesystem::path& file) {
+  if (text.empty()) return {};
+  toml::table document = parseToml(text, file.string());
+  return makeFilesAbsolute(document, file);
+}
+
 std::vector<std::filesystem::path> filesNamedBy(const Scenario& scenario) {
-  if (scenario.text.empty()) return {};
-  toml::table document = parseToml(scenario.text, scenario.file.string());
-  return makeFilesAbsolute(document, scenario.file);
+  return filesNamedBy(scenario.text, scenario.file);
 }
 
 CsvTable readCsvBeside(const TomlSection& table, const std::string& key, bool loads) {

@@ -10,10 +10,12 @@
 
 namespace ursula {
 
-/// Makes the paths in a scenario's document absolute, such as that of samples, and returns them. `scenario` is its
-/// file.
+/// Makes the paths in a scenario's document absolute, such as that of samples or of a model, and returns them.
+/// `scenario` is its file.
 std::vector<std::filesystem::path> makeFilesAbsolute(toml::table& document, const std::filesystem::path& scenario);
 
+/// Returns the same paths of a scenario's text, of either machine.
+std::vector<std::filesystem::path> filesNamedBy(const std::string& text, const std::filesystem::path& file);
 /// Returns the same paths of a scenario that was read; none if a program made it.
 std::vector<std::filesystem::path> filesNamedBy(const Scenario& scenario);
 

@@ -9,6 +9,7 @@
 
 #include "model/scenario_files.h"
 #include "model/scenario_keys.h"
+#include "model/scenario_sections.h"
 #include "model/toml_reader.h"
 
 namespace ursula {
@@ -60,6 +61,7 @@ std::size_t offsetOf(const std::string& text, const toml::source_position& place
 std::string withLengthsInMetres(int per_metre, const std::filesystem::path& file) {
   const std::string text = scenarioText(file);
   const toml::table document = parseToml(text, file.string());
+  requireManipulator(TomlSection(document, "", file.string()));
   std::vector<const toml::node*> numbers;
   lengthsBelow(document, lengthKeys(), numbers);
   const auto begins = [](const toml::node* node) { return node->source().begin; };

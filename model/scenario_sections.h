@@ -15,6 +15,10 @@ namespace ursula {
 
 /// Reads what every scenario has: name, simulation and acceptance.
 void readJudging(const TomlSection& document, Scenario& scenario);
+/// Throws ScenarioError if the document has both [manipulator] and [mechanism].
+void requireOneMachine(const TomlSection& document);
+/// Throws it also for [mechanism] alone: the one place that refuses it for all that cannot take one.
+void requireManipulator(const TomlSection& document);
 ManipulatorParameters readManipulator(const TomlSection& manipulator);
 std::shared_ptr<const Trajectory> readTrajectory(const TomlSection& trajectory);
 std::shared_ptr<const Load> readLoad(const TomlSection& table);

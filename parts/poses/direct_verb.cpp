@@ -10,18 +10,19 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/mechanism.h"
 #include "apps/output.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
-#include "model/scenario_files.h"
 #include "parts/poses/direct_kinematics.h"
+#include "parts/poses/direct_mechanism.h"
 #include "parts/poses/ups_poses.h"
 
 namespace ursula {
 namespace {
 
 struct DirectOptions {
-  std::string scenario, phi, d, coordinates, out = "-";
+  std::string scenario, motion, phi, d, coordinates, out = "-";
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -214,9 +215,23 @@ const NumbersOption& optionFor(const Manipulator& machine) {
   return allSlide(motors) ? d_option : anySlides(motors) ? coordinates_option : phi_option;
 }
 
+int directOfMechanism(const MechanismScenario& scenario, const DirectOptions& options) {
+  if (options.motion.empty() || !options.phi.empty() || !options.d.empty() || !options.coordinates.empty())
+    throw UsageError(
+        fmt::format("{} has [mechanism], expected FILE.csv with the motors' coordinates and no --phi, --d or "
+                    "--coordinates",
+                    scenario.file.string()));
+  return directOfMechanism(scenario, options.motion, options.out);
+}
+
 /// Refuses an option that does not suit the machine.
 int direct(const DirectOptions& options) {
-  const Scenario scenario = readScenarioOrInput(options.scenario);
+  const AnyScenario any = readAny(options.scenario, {options.out});
+  if (any.mechanism) return directOfMechanism(*any.mechanism, options);
+  const Scenario& scenario = *any.manipulator;
+  if (!options.motion.empty())
+    throw UsageError(fmt::format("{}: {} has [manipulator], expected one pose: --phi, --d or --coordinates",
+                                 options.motion, scenario.file.string()));
   const Manipulator& machine = *scenario.manipulator;
   const bool of_paper = machine.isOfThePaper();
   if (!of_paper && !tipsAreOnSpheres(machine))
@@ -239,9 +254,15 @@ int direct(const DirectOptions& options) {
 
 void addDirect(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<DirectOptions>();
-  CLI::App* verb =
-      app.add_subcommand("direct", "Computes every real pose of the platform for given leg angles or lengths, as CSV");
+  CLI::App* verb = app.add_subcommand(
+      "direct",
+      "Computes every real pose of the platform for given leg angles or lengths, or the assemblies of a mechanism");
   verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
+  verb->add_option(
+      "motion", options->motion,
+      "For a scenario with [mechanism]: CSV file with the motors' coordinates, q_k_rad or q_k_m or by the\n"
+      "joint's name, and optionally t_s. Each row continues the assembly of the row before, the first that\n"
+      "at the motion's start");
   verb->add_option("--phi", options->phi,
                    "Angles of six URS or six RUS legs, rad, separated by commas: phi_1,...,phi_6");
   verb->add_option("--d", options->d, "Lengths or strokes of six UPS or PUS legs, m, separated by commas: d_1,...,d_6");

@@ -5,23 +5,18 @@
 #include <memory>
 
 #include "apps/choice.h"
+#include "apps/mechanism.h"
 #include "apps/output.h"
 #include "apps/validate_options.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
 #include "parts/simulate/simulate.h"
+#include "parts/simulate/simulate_verbs.h"
 #include "validation/findings/findings.h"
 #include "validation/verdict/effort_words.h"
 
 namespace ursula {
 namespace {
-
-struct SimulateOptions {
-  std::string scenario, torques, out = "-";
-  std::vector<std::string> map;
-  SimulationEngine engine = SimulationEngine::simbody;
-  double time_limit = 0;  ///< s; 0 if not given
-};
 
 /// Returns why the motion is incomplete; empty if it is complete.
 std::string whatIsMissing(const Simulation& run, const TorqueFile& file, const Scenario& scenario) {
@@ -36,7 +31,11 @@ std::string whatIsMissing(const Simulation& run, const TorqueFile& file, const S
 }
 
 int simulateVerb(const SimulateOptions& options) {
-  const Scenario scenario = openScenario(options.scenario, {options.out});
+  const AnyScenario any = openAny(options.scenario, {options.out});
+  if (any.mechanism) return simulateMechanismVerb(*any.mechanism, options);
+  const Scenario& scenario = *any.manipulator;
+  if (options.torques.empty())
+    throw UsageError(fmt::format("--torques is required, as {} has [manipulator]", scenario.file.string()));
   const TorqueFile file = within(readTorquesAloud(options.torques, options.map, scenario.manipulator->motors()),
                                  scenario.trajectory->duration());
   const Deadline deadline(options.time_limit);
@@ -57,8 +56,9 @@ void addSimulate(CLI::App& app, std::function<int()>& run) {
   verb->add_option("scenario", options->scenario,
                    "Scenario file (TOML), - for standard input; the motion starts in its commanded state")
       ->required();
-  verb->add_option("--torques", options->torques, "CSV file with t_s and tau_{1..6}_Nm, or _N for motors that slide")
-      ->required();
+  verb->add_option("--torques", options->torques,
+                   "CSV file with t_s and tau_{1..6}_Nm, or _N for motors that slide. Only a scenario with [mechanism] "
+                   "may do\nwithout: its motors then have the right efforts of the commanded motion");
   addMapOption(*verb, options->map);
   const std::map<std::string, SimulationEngine> engines{{"noc", SimulationEngine::noc},
                                                         {"simbody", SimulationEngine::simbody}};

@@ -150,9 +150,10 @@ SlurmSettings slurmOf(const TomlSection& table) {
 }
 
 SweepFile assemble(const TomlSection& document, const std::filesystem::path& file) {
-  if (document.has("manipulator") && !document.has("scenario"))
-    document.fail("manipulator", fmt::format("a scenario, expected a sweep, which names one: scenario = \"{}\"",
-                                             file.filename().string()));
+  for (const char* machine : {"manipulator", "mechanism"})
+    if (document.has(machine) && !document.has("scenario"))
+      document.fail(machine, fmt::format("a scenario, expected a sweep, which names one: scenario = \"{}\"",
+                                         file.filename().string()));
   document.allowOnly(keysOfDocument());
   SweepFile sweep;
   sweep.file = file;

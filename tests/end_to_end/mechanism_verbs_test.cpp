@@ -1,0 +1,168 @@
+// What each verb does with a scenario that has [mechanism]: direct, simulate, and the refusal of those that take none.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/csv.h"
+#include "tests/end_to_end/program.h"
+#include "tests/support/matchers.h"
+
+namespace ursula {
+namespace {
+
+/// A call of the program on copies of tests/vectors/loops.
+class MechanismVerbs : public testing::Test {
+ protected:
+  MechanismVerbs() {
+    for (const std::string file : {"delta.toml", "delta.xml", "fourbar.toml", "fourbar.xml", "fourbar.sdf"})
+      ursula_.write(file, TemporaryFolder::read(std::string(URSULA_VECTORS "/loops/") + file));
+  }
+  CsvTable read(const std::string& file) const { return readCsv(ursula_.folder() / file); }
+  /// The largest difference of the columns that both tables have.
+  static double largestDifference(const CsvTable& a, const CsvTable& b, std::size_t* common = nullptr) {
+    double out = 0;
+    EXPECT_EQ(a.rows(), b.rows());
+    for (const std::string& name : a.names) {
+      if (b.find(name) == nullptr) continue;
+      if (common != nullptr) ++*common;
+      for (std::size_t i = 0; i < std::min(a.rows(), b.rows()); ++i)
+        out = std::max(out, std::abs(a.at(name)[i] - b.at(name)[i]));
+    }
+    return out;
+  }
+
+  const Program ursula_;
+};
+
+TEST_F(MechanismVerbs, thoseThatTakeNoneSaySoInOneWay) {
+  ursula_.write("log.csv", "t_s,tau_1_Nm\n0,1\n");
+  const std::string says =
+      "delta.toml:2:1: error: mechanism: this verb takes a scenario with [manipulator], and this "
+      "one has [mechanism], which check, validate, inverse, direct, simulate and sweep take";
+  Refusals calls;
+  for (const std::string call :
+       {"map delta.toml", "poses delta.toml", "export delta.toml --format sdf", "excite delta.toml", "prove delta.toml",
+        "identify delta.toml --measured log.csv", "init new.toml --from delta.toml --lengths mm"})
+    calls.emplace_back(call, says);
+  calls.emplace_back("check delta.toml --picture new.svg", "--picture: delta.toml has [mechanism]");
+  calls.emplace_back("inverse delta.toml --format binary", "--format: delta.toml has [mechanism]");
+  calls.emplace_back("sweep delta.toml", "mechanism: a scenario, expected a sweep");
+  expectRefused(ursula_, calls);
+}
+
+TEST_F(MechanismVerbs, aScenarioHasOneMachine) {
+  const std::string delta = TemporaryFolder::read(ursula_.folder() / "delta.toml");
+  ursula_.write("both.toml", delta + "[manipulator]\n");
+  ursula_.write("none.toml", "name = \"none\"\n");
+  for (const std::string verb : {"check", "validate", "inverse", "map"})
+    expectRefused(ursula_, {{verb + " both.toml", "beside [manipulator], expected one of the two"},
+                            {verb + " none.toml", "expected a table [manipulator] or [mechanism]"}});
+}
+
+TEST_F(MechanismVerbs, standardInputMayHaveAMechanism) {
+  const UrsulaRun named = ursula_("inverse delta.toml --samples 3"),
+                  piped = ursula_("inverse - --samples 3 <delta.toml");
+  EXPECT_EQ(piped.exit_code, 0) << piped.err;
+  EXPECT_EQ(piped.out, named.out);
+}
+
+TEST_F(MechanismVerbs, noOutputReplacesTheModel) {
+  expectRefused(ursula_, {{"inverse delta.toml --out delta.xml", "delta.toml reads this file"},
+                          {"simulate delta.toml --out delta.xml", "delta.toml reads this file"}});
+}
+
+TEST_F(MechanismVerbs, directFindsTheAssembliesOfTheMotion) {
+  for (const std::string machine : {"delta", "fourbar"}) {
+    ASSERT_EQ(ursula_("inverse " + machine + ".toml --samples 21 --out motion.csv").exit_code, 0);
+    const UrsulaRun run = ursula_("direct " + machine + ".toml motion.csv --out found.csv");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    std::size_t common = 0;
+    EXPECT_LT(largestDifference(read("found.csv"), read("motion.csv"), &common), 1e-13);
+    EXPECT_EQ(common, read("found.csv").names.size() - 7) << "all but the output's pose";
+    double norm = 0;
+    for (const char* part : {"output_w", "output_x", "output_y", "output_z"})
+      norm += std::pow(read("found.csv").at(part).back(), 2);
+    EXPECT_NEAR(norm, 1, 1e-14);
+    EXPECT_NE(read("found.csv").at("output_x_m").front(), read("found.csv").at("output_x_m")[5]);
+  }
+}
+
+TEST_F(MechanismVerbs, directTakesJointsNamesAndNoTime) {
+  ursula_.write("named.csv", "arm2_motor_rad,arm0_motor_rad,q_2_rad\n0.1,0.2,0.3\n");
+  ursula_.write("numbered.csv", "q_1_rad,q_2_rad,q_3_rad\n0.2,0.3,0.1\n");
+  const UrsulaRun named = ursula_("direct delta.toml named.csv");
+  EXPECT_EQ(named.exit_code, 0) << named.err;
+  EXPECT_EQ(named.out, ursula_("direct delta.toml numbered.csv").out);
+  EXPECT_EQ(named.out.substr(0, 8), "q_1_rad,");
+}
+
+TEST_F(MechanismVerbs, directRefusesWithTheRowsPlace) {
+  ursula_.write("far.csv", "q_1_rad,q_2_rad,q_3_rad\n0,0,0\n0.1,0,0\n9,0,0\n");
+  ursula_.write("few.csv", "q_1_rad,q_2_rad\n0,0\n");
+  ursula_.write("none.csv", "q_1_rad,q_2_rad,q_3_rad\n");
+  expectRefused(ursula_, {{"direct delta.toml far.csv", "far.csv:4: error: the loops cannot follow the motors"},
+                          {"direct delta.toml few.csv", "missing column 'q_3_rad'"},
+                          {"direct delta.toml none.csv", "none.csv"},
+                          {"direct delta.toml", "expected FILE.csv with the motors' coordinates"},
+                          {"direct delta.toml far.csv --phi 1,2,3", "expected FILE.csv"},
+                          {"direct " + helix + " far.csv", "has [manipulator], expected one pose"}});
+}
+
+class SimulateMechanism : public MechanismVerbs, public testing::WithParamInterface<std::string> {
+ protected:
+  UrsulaRun simulate(const std::string& rest) const { return ursula_("simulate --engine " + GetParam() + " " + rest); }
+};
+
+TEST_P(SimulateMechanism, theRightEffortsMakeTheMotion) {
+  ASSERT_EQ(ursula_("inverse delta.toml --samples 301 --out commanded.csv").exit_code, 0);
+  const UrsulaRun run = simulate("delta.toml --out made.csv");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::size_t common = 0;
+  EXPECT_LT(largestDifference(read("made.csv"), read("commanded.csv"), &common), 1e-9);
+  EXPECT_EQ(common, 13u) << "t, q, qdot, qddot, tau";
+  const std::vector<double> closure = read("made.csv").at("closure_m");
+  EXPECT_LT(*std::max_element(closure.begin(), closure.end()), 1e-12);
+  ASSERT_EQ(ursula_("direct delta.toml commanded.csv --out poses.csv").exit_code, 0);
+  EXPECT_LT(largestDifference(read("made.csv"), read("poses.csv")), 1e-9) << "the output body's pose";
+}
+
+TEST_P(SimulateMechanism, effortsOfAFileMakeItToo) {
+  ASSERT_EQ(ursula_("inverse fourbar.toml --samples 301 --out commanded.csv").exit_code, 0);
+  const UrsulaRun run = simulate("fourbar.toml --torques commanded.csv --out made.csv");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("columns that are ignored: q_1_rad"));
+  EXPECT_NEAR(read("made.csv").at("q_1_rad").back(), read("commanded.csv").at("q_1_rad").back(), 1e-6);
+}
+
+TEST_P(SimulateMechanism, otherEffortsMakeAnotherMotion) {
+  ASSERT_EQ(ursula_("inverse delta.toml --samples 61 --out commanded.csv").exit_code, 0);
+  const CsvTable right = read("commanded.csv");
+  std::string text = "t_s,tau_1_Nm,tau_2_Nm,tau_3_Nm\n";
+  for (std::size_t i = 0; i < 21; ++i) {
+    text += std::to_string(right.at("t_s")[i]);
+    for (int k = 1; k <= 3; ++k) text += "," + std::to_string(1.02 * right.at("tau_" + std::to_string(k) + "_Nm")[i]);
+    text += "\n";
+  }
+  ursula_.write("wrong.csv", text);
+  const UrsulaRun run = simulate("delta.toml --torques wrong.csv --out made.csv");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("of a motion from 0 to 2 s; the rest is not simulated"));
+  EXPECT_EQ(read("made.csv").rows(), 21u);
+  EXPECT_GT(std::abs(read("made.csv").at("q_1_rad").back() - right.at("q_1_rad")[20]), 1e-4);
+}
+
+TEST_P(SimulateMechanism, refusesWhatItCannotInterpolateOrRead) {
+  ursula_.write("few.csv", "t_s,tau_1_Nm\n0,1\n1,1\n");
+  ursula_.write("other.csv", "t_s,tau_2_Nm\n0,1\n1,1\n");
+  expectRefused(ursula_, {{"simulate fourbar.toml --torques few.csv", "expected at least 6 to interpolate between"},
+                          {"simulate fourbar.toml --torques other.csv", "missing column 'tau_1_Nm'"},
+                          {"simulate " + helix, "--torques is required"}});
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, SimulateMechanism, testing::Values("noc", "simbody"),
+                         [](const auto& engine) { return engine.param; });
+
+}  // namespace
+}  // namespace ursula
