@@ -80,13 +80,6 @@ void requireApart(const std::string& text, const std::filesystem::path& scenario
         throw UsageError(fmt::format("{}: {} reads this file, expected another file", file, scenario.string()));
 }
 
-void requireApart(const MechanismScenario& scenario, const std::string& written) {
-  if (!namesFile(written)) return;
-  for (const std::filesystem::path& read : {scenario.file, scenario.model})
-    if (areSame(written, read.string()))
-      throw UsageError(fmt::format("{}: {} reads this file, expected another file", written, scenario.file.string()));
-}
-
 void refuseToReplace(const std::string& folder, const std::filesystem::path& read) {
   throw UsageError(
       fmt::format("--out {}: results would replace {}, which is read, expected another folder", folder, read.string()));

@@ -20,9 +20,6 @@ void requireApart(const Scenario& scenario, std::initializer_list<std::string> w
 void requireApart(const std::string& text, const std::filesystem::path& scenario,
                   std::initializer_list<std::string> written);
 
-/// The same for a mechanism's scenario and its model.
-void requireApart(const MechanismScenario& scenario, const std::string& written);
-
 /// Throws UsageError: results in `folder` would replace `read`.
 [[noreturn]] void refuseToReplace(const std::string& folder, const std::filesystem::path& read);
 

@@ -19,6 +19,7 @@ namespace {
 
 struct InitOptions {
   std::string file, kind = "URS", from, model;
+  std::vector<std::string> motors;
   int lengths_per_metre = 1;
 };
 
@@ -47,7 +48,7 @@ std::string textFor(const std::string& file, LegKind kind) {
 int init(const InitOptions& options) {
   if (options.file != "-" && std::filesystem::exists(std::filesystem::symlink_status(options.file)))
     throw UsageError(options.file + " exists, expected the name of a new file");
-  if (!options.model.empty()) return initFromModel(options.file, options.model);
+  if (!options.model.empty()) return initFromModel(options.file, options.model, options.motors);
   writeOutput(options.file, options.from.empty() ? textFor(options.file, kindOf(options.kind))
                                                  : withLengthsInMetres(options.lengths_per_metre, options.from));
   if (options.file != "-") say("wrote {}; change it, then: ursula check {}\n", options.file, shellWord(options.file));
@@ -69,10 +70,12 @@ void addInit(CLI::App& app, std::function<int()>& run) {
                                           "Unit of the lengths in --from, which the new file has in m; all else stays");
   takeOneOf<int>(lengths, {{"mm", 1000}, {"cm", 100}})->needs(from);
   from->needs(lengths)->excludes(kind);
-  verb->add_option("--model", options->model,
-                   "Model of a machine with closed loops (MJCF, SDF, URDF) to write a scenario for")
-      ->excludes(kind)
-      ->excludes(from);
+  CLI::Option* model = verb->add_option(
+      "--model", options->model, "Model of a machine with closed loops (MJCF, SDF, URDF) to write a scenario for");
+  model->excludes(kind)->excludes(from);
+  verb->add_option("--motors", options->motors, "Joints that motors drive, instead of those that the model names")
+      ->delimiter(',')
+      ->needs(model);
   verb->callback([options, &run] { run = [options] { return init(*options); }; });
 }
 

@@ -8,6 +8,7 @@
 
 #include "apps/files_apart.h"
 #include "apps/output.h"
+#include "apps/suite/no_model.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
 #include "base/text.h"
@@ -17,20 +18,6 @@
 #include "validation/mechanism/validate_mechanism.h"
 
 namespace ursula {
-namespace {
-
-/// A basic string of TOML.
-std::string tomlString(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + '"';
-}
-
-}  // namespace
-
 std::vector<std::pair<std::string, std::string>> effortColumns(const std::vector<std::string>& texts,
                                                                const Mechanism& mechanism) {
   std::vector<std::string> known = {"t_s"};
@@ -51,7 +38,7 @@ std::vector<std::pair<std::string, std::string>> effortColumns(const std::vector
 }
 
 AnyScenario readAny(const std::string& file, std::initializer_list<std::string> written) {
-  const std::string text = scenarioTextOrInput(file);
+  const std::string text = scenarioNotModel(file);
   const std::filesystem::path name = namedInput(file);
   AnyScenario out;
   if (isMechanism(text))
@@ -148,56 +135,6 @@ ValidationResult judgeMechanism(const MechanismScenario& scenario, const std::st
     }
     return validateMechanism(scenario, subject, options);
   });
-}
-
-int initFromModel(const std::string& file, const std::string& model) {
-  const ModelReader reader = partModelReader();
-  if (reader == nullptr) throw UsageError("--model: this build has no reader of models; ./dev build adds it");
-  const ModelRead read = reader(model, {});
-  const Mechanism mechanism(read.machine);
-  const LoopSolver solver(mechanism);
-  const loops::VectorXd start = solver.motorCoordinates(solver.assembled());
-  // A tenth of a turn, or of the machine's size, or as much less as the loops can follow.
-  double share = 1;
-  const auto amplitude = [&](std::size_t k) {
-    return share * (mechanism.motor(k).slides() ? 0.05 * mechanism.length() : 0.2);
-  };
-  const auto motionOf = [&] {
-    std::vector<FourierSeries> motors;
-    for (std::size_t k = 0; k < mechanism.motorCount(); ++k)
-      motors.push_back({start(static_cast<Eigen::Index>(k)), {amplitude(k)}, {}});
-    return makeFourier(2, 2, motors);
-  };
-  for (int tries = 0; tries < 12; ++tries, share /= 2) {
-    try {
-      const auto motion = motionOf();
-      static_cast<void>(LoopMotion(solver, *motion));
-      break;
-    } catch (const LoopError&) {
-      if (tries == 11) throw;
-    }
-  }
-  const std::filesystem::path folder = file == "-" ? "." : std::filesystem::absolute(file).parent_path();
-  std::error_code failed;
-  std::filesystem::path path = std::filesystem::relative(std::filesystem::absolute(model), folder, failed);
-  if (failed || path.empty()) path = std::filesystem::absolute(model);
-  const std::string stem =
-      file == "-" ? std::filesystem::path(model).stem().string() : std::filesystem::path(file).stem().string();
-  std::string text =
-      fmt::format("name = \"{}\"\n\n[mechanism]\nfile = {}\nmotors = [", stem, tomlString(path.string()));
-  for (std::size_t k = 0; k < mechanism.motorCount(); ++k)
-    text += fmt::format("{}{}", k == 0 ? "" : ", ", tomlString(mechanism.motor(k).name));
-  text += fmt::format(
-      "]\noutput = {}\n\n[trajectory]\nkind = \"fourier\"  # q(t) = offset + sum of sin_j sin(2 pi j t / period) and "
-      "cos_j cos(2 pi j t / period)\nduration = 2.0\nperiod = 2.0\nmotors = [\n",
-      tomlString(mechanism.bodies()[mechanism.output()].name));
-  for (std::size_t k = 0; k < mechanism.motorCount(); ++k)
-    text +=
-        fmt::format("  {{ offset = {}, sin = [{:.3g}], cos = [] }},  # {}, {}\n", start(static_cast<Eigen::Index>(k)),
-                    amplitude(k), withoutControls(mechanism.motor(k).name), mechanism.motor(k).slides() ? "m" : "rad");
-  writeOutput(file, text + "]\n");
-  if (file != "-") say("wrote {}; next: ursula check {}\n", file, shellWord(file));
-  return exit_passed;
 }
 
 }  // namespace ursula

@@ -51,7 +51,8 @@ ValidationResult judgeMechanism(const MechanismScenario& scenario, const std::st
                                 const std::vector<std::string>& map, const ExternalSolverOptions& solver,
                                 const MechanismOptions& options);
 
-/// Writes a scenario for a model, with a small motion that its loops can follow.
-int initFromModel(const std::string& file, const std::string& model);
+/// Writes a scenario for a model, with a small motion that its loops can follow. `motors` are joints' names; empty for
+/// those that the model drives.
+int initFromModel(const std::string& file, const std::string& model, const std::vector<std::string>& motors);
 
 }  // namespace ursula

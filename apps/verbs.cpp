@@ -9,6 +9,7 @@
 
 #include "apps/files_apart.h"
 #include "apps/output.h"
+#include "apps/suite/no_model.h"
 #include "base/text.h"
 #include "model/scenario_files.h"
 #include "report/files/run.h"
@@ -57,7 +58,7 @@ void sayWarnings(const Scenario& scenario) {
 }
 
 Scenario openScenario(const std::string& file, std::initializer_list<std::string> written) {
-  Scenario scenario = readScenarioOrInput(file);
+  Scenario scenario = parseScenario(scenarioNotModel(file), namedInput(file));
   requireApart(scenario, written);
   sayWarnings(scenario);
   return scenario;

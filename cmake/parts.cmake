@@ -7,7 +7,7 @@
 # functions are addName, in the *_verb.cpp of its folder. ADDS: what it adds to a verdict, as functions of the same name:
 # engines (addEngines, addMechanismEngines), fast families (addFastFamilies), likely causes (addLikelyCause,
 # addMechanismCause), provenance (addNAMEProvenance), what reads a mechanism's model again (addMechanismReading); or to
-# what can be read: models of mechanisms (addMechanismReader).
+# what can be read: models of mechanisms (addMechanismReader), and what to do with a model (addModelAdvice).
 set(URSULA_PARTS all CACHE STRING "Which parts are built: first (what the first hour needs) or all")
 set_property(CACHE URSULA_PARTS PROPERTY STRINGS first all)
 
@@ -38,6 +38,7 @@ function(ursula_part_rows file)
   set(PROVENANCE "")
   set(CAUSE "nullptr")
   set(READER "nullptr")
+  set(ADVICE "nullptr")
   set(MECHANISM_ENGINES "")
   set(MECHANISM_CAUSE "nullptr")
   set(READING "nullptr")
@@ -58,6 +59,9 @@ function(ursula_part_rows file)
     elseif(what STREQUAL "addMechanismReader")
       set(READER "addMechanismReader()")
       string(APPEND DECLARED "ModelReader addMechanismReader();\n")
+    elseif(what STREQUAL "addModelAdvice")
+      set(ADVICE "addModelAdvice()")
+      string(APPEND DECLARED "ModelAdvice addModelAdvice();\n")
     elseif(what MATCHES "Provenance$")
       string(APPEND DECLARED "void ${what}(std::vector<std::pair<std::string, std::string>>& rows);\n")
       string(APPEND PROVENANCE "  ${what}(rows);\n")

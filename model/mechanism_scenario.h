@@ -34,6 +34,11 @@ using ModelReader = ModelRead (*)(const std::filesystem::path& file, const Mecha
 /// Null if no part of this build reads models. CMake writes the definition (cmake/parts.cmake), once for each program.
 ModelReader partModelReader();
 
+/// Returns the command that makes a scenario of a model file. Throws InputError if the file is no model.
+using ModelAdvice = std::string (*)(const std::filesystem::path& file);
+/// Null if no part of this build reads models.
+ModelAdvice partModelAdvice();
+
 /// A mechanism of any kind, the commanded motion of its motors, and how both are judged.
 struct MechanismScenario {
   std::string name;

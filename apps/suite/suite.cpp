@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "apps/suite/no_model.h"
 #include "base/errors.h"
 #include "base/output_folder.h"
 #include "base/start_threads.h"
@@ -35,7 +36,7 @@ SuiteMember readMember(const std::filesystem::path& file) {
   SuiteMember member;
   member.name = file.string();
   try {
-    std::string text = scenarioTextOrInput(file);
+    std::string text = scenarioNotModel(file);
     if (isMechanism(text)) {
       member.mechanism =
           std::make_shared<const MechanismScenario>(parseMechanism(text, namedInput(file), partModelReader()));

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "model/scenario.h"
+#include "model/mechanism_scenario.h"
+#include "parts/exchange/mechanism_reader.h"
 #include "parts/exchange/model_text.h"
 #include "parts/exchange/recognise/machine.h"
 
@@ -33,4 +34,22 @@ Imported importModel(const std::filesystem::path& file, const ImportChoices& cho
   });
 }
 
+std::string adviceOnModel(const std::filesystem::path& file) {
+  const std::string model = shellWord(file.string());
+  try {
+    static_cast<void>(importModel(file, {}));
+    return fmt::format("ursula import {} --out my.toml", model);
+  } catch (const ImportError&) {
+    static_cast<void>(readMechanismModel(file, {}));
+    return fmt::format("ursula init my.toml --model {}", model);
+  }
+}
+
 }  // namespace ursula::exchange
+
+namespace ursula {
+
+/// The row of this part.
+ModelAdvice addModelAdvice() { return exchange::adviceOnModel; }
+
+}  // namespace ursula

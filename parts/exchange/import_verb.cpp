@@ -31,9 +31,27 @@ std::string asJson(const exchange::Imported& imported) {
   return jsonText(document, 2) + "\n";
 }
 
+/// Returns where a machine that is no manipulator of six motors goes; empty if other choices, or another file, help.
+std::string elsewhere(const std::string& model) {
+  try {
+    const std::string advice = exchange::adviceOnModel(model);
+    return advice.rfind("ursula init", 0) == 0 ? ". As a machine of another kind: " + advice : "";
+  } catch (const std::exception&) {
+    return "";
+  }
+}
+
+exchange::Imported importOrHint(const ImportOptions& options) {
+  try {
+    return exchange::importModel(options.model, options.choices);
+  } catch (const exchange::ImportError& error) {
+    throw exchange::ImportError(error.what() + elsewhere(options.model), error.line);
+  }
+}
+
 /// With `--json` standard output gets only the document, and the scenario goes to a named file.
 int import(const ImportOptions& options) {
-  exchange::Imported imported = exchange::importModel(options.model, options.choices);
+  exchange::Imported imported = importOrHint(options);
   if (const auto found = singularEverywhere(parseScenario(imported.scenario, options.model)))
     imported.assumptions.push_back({"The machine is " + found->words(), "legs", found->largest, "1"});
   if (!options.json) {
@@ -62,6 +80,10 @@ void addImport(CLI::App& app, std::function<int()>& run) {
       ->delimiter(',');
   verb->add_option("--close", choices.closed,
                    "Two links, A:B: a ball joint connects the origins of their frames; once for each loop");
+  verb->add_option("--leave-out", choices.leave_out,
+                   "Leaves out what the file has: fluid, ball-friction, passive-armature, passive-friction, springs, "
+                   "limits; passive joints are those without a motor")
+      ->delimiter(',');
   verb->add_option("--tolerance", choices.tolerance,
                    "Axes count as square or parallel within this angle, rad, and as meeting within this share of the "
                    "machine's size")

@@ -40,7 +40,7 @@ TEST_F(MechanismVerbs, thoseThatTakeNoneSaySoInOneWay) {
   ursula_.write("log.csv", "t_s,tau_1_Nm\n0,1\n");
   const std::string says =
       "delta.toml:2:1: error: mechanism: this verb takes a scenario with [manipulator], and this "
-      "one has [mechanism], which check, validate, inverse, direct, simulate and sweep take";
+      "one has [mechanism], which check, validate, inverse, direct and simulate take";
   Refusals calls;
   for (const std::string call :
        {"map delta.toml", "poses delta.toml", "export delta.toml --format sdf", "excite delta.toml", "prove delta.toml",
@@ -49,6 +49,10 @@ TEST_F(MechanismVerbs, thoseThatTakeNoneSaySoInOneWay) {
   calls.emplace_back("check delta.toml --picture new.svg", "--picture: delta.toml has [mechanism]");
   calls.emplace_back("inverse delta.toml --format binary", "--format: delta.toml has [mechanism]");
   calls.emplace_back("sweep delta.toml", "mechanism: a scenario, expected a sweep");
+  ursula_.write("sweep.toml",
+                "scenario = \"delta.toml\"\ndesign = \"grid\"\n[[vary]]\nkey = \"trajectory.duration\"\n"
+                "values = [1, 2]\n");
+  calls.emplace_back("sweep sweep.toml", says);
   expectRefused(ursula_, calls);
 }
 
@@ -108,6 +112,70 @@ TEST_F(MechanismVerbs, directRefusesWithTheRowsPlace) {
                           {"direct delta.toml", "expected FILE.csv with the motors' coordinates"},
                           {"direct delta.toml far.csv --phi 1,2,3", "expected FILE.csv"},
                           {"direct " + helix + " far.csv", "has [manipulator], expected one pose"}});
+}
+
+TEST_F(MechanismVerbs, aModelInPlaceOfAScenarioIsToldWhatMakesOne) {
+  ASSERT_EQ(ursula_("export " + helix + " --format mjcf --out hexapod.xml").exit_code, 0);
+  ursula_.write("page.xml", "<html></html>\n");
+  const std::string is_model = ": error: this is a model, and a scenario is expected, which ursula ";
+  Refusals calls;
+  for (const std::string verb : {"validate", "check", "inverse", "map", "direct"}) {
+    calls.emplace_back(verb + " delta.xml", "delta.xml" + is_model + "init my.toml --model delta.xml makes of it");
+    calls.emplace_back(verb + " hexapod.xml",
+                       "hexapod.xml" + is_model + "import hexapod.xml --out my.toml makes of it");
+    calls.emplace_back(verb + " page.xml", "the root element is <html>");
+  }
+  expectRefused(ursula_, calls);
+}
+
+TEST_F(MechanismVerbs, importSaysWhereAnotherMachineGoes) {
+  ASSERT_EQ(ursula_("export " + helix + " --format mjcf --out hexapod.xml").exit_code, 0);
+  expectRefused(ursula_, {{"import delta.xml", "As a machine of another kind: ursula init my.toml --model delta.xml"}});
+  const UrsulaRun wrong = ursula_("import hexapod.xml --platform nobody");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_EQ(wrong.err.find("another kind"), std::string::npos) << wrong.err;
+}
+
+TEST_F(MechanismVerbs, importLeavesOutWhatItIsTold) {
+  ASSERT_EQ(ursula_("export " + helix + " --format mjcf --out hexapod.xml").exit_code, 0);
+  std::string text = TemporaryFolder::read(ursula_.folder() / "hexapod.xml");
+  const std::size_t hinge = text.find("type=\"hinge\"");
+  ASSERT_NE(hinge, std::string::npos);
+  ursula_.write("springs.xml", text.insert(hinge, "stiffness=\"3\" "));
+  expectRefused(ursula_, {{"import springs.xml", "springs.xml"},
+                          {"import springs.xml --leave-out sprigs", "--leave-out: 'sprigs', expected fluid"}});
+  const UrsulaRun without = ursula_("import springs.xml --leave-out springs");
+  EXPECT_EQ(without.exit_code, 0) << without.err;
+  EXPECT_THAT(without.err, HasSubstr("Its spring is left out"));
+}
+
+TEST_F(MechanismVerbs, initWritesAScenarioThatPasses) {
+  ASSERT_EQ(ursula_("init 'my \"own\".toml' --model delta.xml").exit_code, 0);
+  ASSERT_EQ(ursula_("init fourbar_sdf.toml --model fourbar.sdf --motors crank_hinge").exit_code, 0);
+  const UrsulaRun check = ursula_("check 'my \"own\".toml' fourbar_sdf.toml");
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  const UrsulaRun verdict = ursula_("validate 'my \"own\".toml' --quiet --out results");
+  EXPECT_EQ(verdict.exit_code, 0) << verdict.out << verdict.err;
+}
+
+TEST_F(MechanismVerbs, initAsksForMotorsThatNobodyNames) {
+  expectRefused(ursula_,
+                {{"init new.toml --model fourbar.sdf",
+                  "fourbar.sdf: it drives no joint, expected --motors A,B,…, one for its 1 freedom; candidates: "
+                  "crank_hinge, knee, rocker_hinge"},
+                 {"init new.toml --model fourbar.sdf --motors nobody", "--motors: 'nobody', no joint has that name"},
+                 {"init new.toml --model fourbar.sdf --motors crank_hinge,knee", "2 motors for 1 freedom"},
+                 {"init new.toml --motors knee", "--model"}});
+}
+
+TEST_F(MechanismVerbs, namesMayHaveQuotes) {
+  std::string text = TemporaryFolder::read(ursula_.folder() / "fourbar.sdf");
+  for (std::size_t at = 0; (at = text.find("\"crank_hinge\"", at)) != std::string::npos;)
+    text.replace(at, 13, "'the \"crank\" \\ hinge'");
+  ursula_.write("quoted.sdf", text);
+  ASSERT_EQ(ursula_("init new.toml --model quoted.sdf --motors 'the \"crank\" \\ hinge'").exit_code, 0);
+  const UrsulaRun check = ursula_("check new.toml");
+  EXPECT_EQ(check.exit_code, 0) << check.err;
 }
 
 class SimulateMechanism : public MechanismVerbs, public testing::WithParamInterface<std::string> {

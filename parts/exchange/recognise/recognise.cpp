@@ -9,6 +9,7 @@
 
 #include "base/csv_dialect.h"
 #include "base/text.h"
+#include "parts/exchange/leave_out.h"
 #include "parts/exchange/recognise/legs.h"
 
 namespace ursula::exchange {
@@ -95,9 +96,10 @@ class Recogniser {
   Recogniser(ModelGraph graph, const ImportChoices& choices) : graph_(std::move(graph)), choices_(choices) {}
 
   ImportedMachine machine() {
-    requireWords(graph_);
     close(graph_, choices_.closed);
     drive(graph_, choices_.actuated);
+    leaveOut(graph_, choices_.leave_out, "--leave-out");  // before what is left is judged
+    requireWords(graph_);
     Assumptions gaps;
     takeHinges(graph_, gaps);
     requireMass();
