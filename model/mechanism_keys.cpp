@@ -31,6 +31,8 @@ ScenarioTable mechanism() {
            texts("close", "`\"A:B\"`: a ball joins the frame origins of these two links"),
            {"base", KeyType::string, "", no_default, "a body that stands still"},
            {"gravity", KeyType::vector, "m/s²", no_default, "instead of the file's"},
+           tableKey("numbers", no_default, "numbers in place of the file's: `\"body.NAME.mass\" = 1.2`, as in a sweep",
+                    "mechanism.numbers"),
            texts("leave_out",
                  "what of the file is left out: `fluid`, `springs`, `limits`, `ball-friction`, `passive-friction`, "
                  "`passive-armature`")}};

@@ -8,6 +8,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "model/mechanism_keys.h"
+#include "model/mechanism_numbers.h"
 #include "model/scenario_files.h"
 #include "model/scenario_sections.h"
 #include "model/toml_reader.h"
@@ -115,6 +116,20 @@ std::unique_ptr<MotorTrajectory> readMotion(const TomlSection& table, const Mech
   }
 }
 
+/// Replaces numbers of the model by those of `[mechanism.numbers]`.
+void takeNumbers(const TomlSection& table, MechanismParameters& machine) {
+  for (const auto& [key, node] : table.table()) {
+    const std::string name(key.str());
+    double value = 0;
+    table.require(name, value);
+    try {
+      setMechanismNumber(name, value, machine);
+    } catch (const InvalidParameter& refusal) {
+      table.fail(name, fmt::format("{}, expected {}", refusal.value(), refusal.bound()));
+    }
+  }
+}
+
 void assemble(const TomlSection& document, ModelReader reader, MechanismScenario& out) {
   requireOneMachine(document);
   document.allowOnly(mechanismTable(""));
@@ -133,6 +148,7 @@ void assemble(const TomlSection& document, ModelReader reader, MechanismScenario
   if (out.model.is_relative()) out.model = out.file.parent_path() / out.model;
   if (reader == nullptr) table.fail("file", "this build has no reader of models; ./dev build adds it");
   out.read = reader(out.model, readChoices(table));
+  if (const auto numbers = table.section("numbers")) takeNumbers(*numbers, out.read.machine);
   out.mechanism = std::make_shared<Mechanism>(out.read.machine, output);
   out.trajectory = readMotion(document.requiredSection("trajectory"), *out.mechanism);
 }

@@ -16,7 +16,7 @@
 namespace ursula {
 namespace {
 
-constexpr const char* verbs_with_mechanism = "check, validate, inverse, direct and simulate";
+constexpr const char* verbs_with_mechanism = "check, validate, inverse, direct, simulate and sweep";
 
 /// The name must suit a folder, because results go into a folder of that name.
 std::string readName(const TomlSection& document) {

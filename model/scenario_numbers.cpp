@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "model/mechanism_keys.h"
 #include "model/scenario_keys.h"
 
 namespace ursula {
@@ -46,6 +47,7 @@ struct Spot {
   const toml::node* inherited;  ///< the same node in leg_defaults; null if there is none
   std::string table;            ///< name in scenarioTables(), if `node` is a table or an array of tables
   bool integer = false;
+  bool mechanism = false;  ///< of a scenario with [mechanism]
 };
 
 [[noreturn]] void fail(const std::string& key, const std::string& what) {
@@ -53,9 +55,13 @@ struct Spot {
 }
 
 const ScenarioTable& keysOf(const Spot& spot) {
-  if (spot.table != "trajectory") return scenarioTable(spot.table);
+  const bool own = spot.mechanism && spot.table != "simulation" && spot.table.compare(0, 10, "acceptance") != 0;
+  const auto table = [own](const std::string& name) -> const ScenarioTable& {
+    return own ? mechanismTable(name) : scenarioTable(name);
+  };
+  if (spot.table != "trajectory") return table(spot.table);
   const std::string kind = spot.node->as_table()->get("kind")->value_or(std::string());
-  return scenarioTable("trajectory." + kind);
+  return table("trajectory." + kind);
 }
 
 std::string childTable(const std::string& key, const ScenarioKey& about) {
@@ -95,8 +101,9 @@ std::string asWritten(const Spot& spot, const std::string& part) {
 Spot intoTable(const Spot& spot, const std::string& asked, const std::string& whole) {
   const std::string part = asWritten(spot, asked);
   // Keys of limits are names of checks, dotted or in tables; only those in the scenario can vary.
-  if (spot.table.compare(0, 10, "acceptance") == 0)
-    if (toml::node* given = spot.node->as_table()->get(part)) return {given, nullptr, "acceptance"};
+  if (spot.table.compare(0, 10, "acceptance") == 0 || spot.table == "mechanism.numbers")
+    if (toml::node* given = spot.node->as_table()->get(part))
+      return {given, nullptr, "acceptance", false, spot.mechanism};
   const ScenarioTable& keys = keysOf(spot);
   const std::vector<std::string> names = keys.names();
   if (std::find(names.begin(), names.end(), part) == names.end())
@@ -107,7 +114,7 @@ Spot intoTable(const Spot& spot, const std::string& asked, const std::string& wh
   const toml::node* inherited = defaults == nullptr ? nullptr : defaults->get(part);
   toml::table& table = *spot.node->as_table();
   if (!table.contains(part)) writeOut(table, about, inherited, whole);
-  return {table.get(part), inherited, childTable(part, about), about.type == KeyType::integer};
+  return {table.get(part), inherited, childTable(part, about), about.type == KeyType::integer, spot.mechanism};
 }
 
 std::size_t indexOf(const std::string& part, std::size_t from, std::size_t size, const std::string& whole) {
@@ -123,7 +130,7 @@ Spot intoArray(const Spot& spot, const std::string& part, const std::string& who
   toml::array& array = *spot.node->as_array();
   const bool of_tables = !array.empty() && array.front().is_table();
   const std::size_t index = indexOf(part, of_tables ? 1 : 0, array.size(), whole);
-  Spot out{array.get(index), nullptr, spot.table};
+  Spot out{array.get(index), nullptr, spot.table, false, spot.mechanism};
   if (spot.table == "manipulator.leg") out.inherited = document["manipulator"]["leg_defaults"].node();
   return out;
 }
@@ -136,7 +143,7 @@ Spot into(const Spot& spot, const std::string& part, const std::string& whole, c
 
 /// Follows the first `count` parts.
 Spot follow(toml::table& document, const std::vector<std::string>& parts, std::size_t count, const std::string& whole) {
-  Spot spot{&document, nullptr, ""};
+  Spot spot{&document, nullptr, "", false, document.contains("mechanism")};
   for (std::size_t k = 0; k < count; ++k) spot = into(spot, parts[k], whole, document);
   return spot;
 }
@@ -168,7 +175,7 @@ void requireUse(const toml::table& document, const std::string& whole) {
 }  // namespace
 
 std::vector<std::string> ScenarioNumbers::expanded(const std::string& key) const {
-  const std::string whole = withManipulator(key);
+  const std::string whole = document_.contains("mechanism") ? key : withManipulator(key);
   const std::vector<std::string> parts = partsOf(whole);
   const auto star = std::find(parts.begin(), parts.end(), "*");
   if (star == parts.end()) return {whole};

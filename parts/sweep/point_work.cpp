@@ -18,6 +18,7 @@
 #include "parts/fast/solver.h"
 #include "parts/sweep/run.h"
 #include "validation/checks/judges.h"
+#include "validation/mechanism/validate_mechanism.h"
 #include "validation/subject/scaled_jacobian.h"
 #include "validation/subject/subject.h"
 #include "validation/validate.h"
@@ -135,7 +136,14 @@ class SweepWorker {
     point.parameters = plan_.parameters(i);
     const auto start = std::chrono::steady_clock::now();
     try {
-      plan_.file().work == SweepWork::inverse ? inverse(i, point) : validate(i, point);
+      if (plan_.mechanism() != nullptr)
+        plan_.file().work == SweepWork::inverse ? inverseOfMechanism(i, point) : validateMechanism(i, point);
+      else
+        plan_.file().work == SweepWork::inverse ? inverse(i, point) : validate(i, point);
+    } catch (const LoopError& refusal) {
+      point.verdict = "out_of_reach";
+      point.error = utf8(refusal.what());
+      point.values.clear();
     } catch (const PoseError& refusal) {
       point.verdict = verdictOf(refusal);
       point.values.clear();
@@ -167,8 +175,37 @@ class SweepWorker {
     point.verdict = "pass";
   }
 
+  /// The largest effort of each motor, and the passive rates' worst condition number.
+  void inverseOfMechanism(std::int64_t i, SweepPoint& point) const {
+    const MechanismScenario scenario = plan_.readMechanism(i);
+    const MechanismAlong along(scenario);
+    const auto n = static_cast<Eigen::Index>(scenario.mechanism->motorCount());
+    Eigen::VectorXd efforts = Eigen::VectorXd::Constant(n, -1), times = Eigen::VectorXd::Zero(n);
+    double condition = 0;
+    LoopWork work;
+    for (const double t : equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples)) {
+      const Eigen::VectorXd sizes = along.motion().inverseDynamics(t, work).cwiseAbs();
+      condition = std::max(condition, 1 / work.reciprocal_condition);
+      for (Eigen::Index k = 0; k < n; ++k)
+        if (exceeds(sizes(k), efforts(k))) efforts(k) = sizes(k), times(k) = t;
+    }
+    for (Eigen::Index k = 0; k < n; ++k) {
+      add(motorColumn(*scenario.mechanism, static_cast<std::size_t>(k), "tau"), efforts(k), point);
+      add(fmt::format("tau_{}_t_s", k + 1), times(k), point);
+    }
+    add("kappa_passive", condition, point);
+    point.verdict = "pass";
+  }
+
+  void validateMechanism(std::int64_t i, SweepPoint& point) const {
+    take(ursula::validateMechanism(plan_.readMechanism(i)), point);
+  }
+
   void validate(std::int64_t i, SweepPoint& point) {
-    const ValidationResult result = plan_.file().pointwise ? pointwise(i) : ursula::validate(plan_.read(i));
+    take(plan_.file().pointwise ? pointwise(i) : ursula::validate(plan_.read(i)), point);
+  }
+
+  static void take(const ValidationResult& result, SweepPoint& point) {
     const auto known = [](double x) { return std::isfinite(x) ? x : none; };
     for (const Check& check : result.checks)
       if (check.verdict != Verdict::not_applicable)

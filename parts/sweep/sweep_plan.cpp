@@ -7,9 +7,11 @@
 #include <set>
 #include <utility>
 
+#include "base/errors.h"
 #include "base/provenance.h"
 #include "base/sha1.h"
 #include "base/utf8.h"
+#include "model/mechanism_numbers.h"
 #include "model/scenario_files.h"
 #include "model/scenario_numbers.h"
 #include "model/scenario_sections.h"
@@ -24,14 +26,35 @@ std::string bytesOf(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+std::optional<MechanismScenario> mechanismOf(const SweepFile& sweep) {
+  const std::string text = scenarioText(sweep.scenario);
+  if (!isMechanism(text)) return std::nullopt;
+  if (sweep.pointwise)
+    throw ScenarioError(fmt::format("{}: error: pointwise: {} has [mechanism], expected [manipulator]",
+                                    sweep.file.string(), sweep.scenario.string()));
+  return parseMechanism(text, sweep.scenario, partModelReader());
+}
+
+Scenario outlineOf(const MechanismScenario& mechanism) {
+  Scenario out;
+  out.name = mechanism.name;
+  out.file = mechanism.file;
+  out.text = mechanism.text;
+  out.simulation = mechanism.simulation;
+  return out;
+}
+
 }  // namespace
 
 struct SweepPlan::Document {
   toml::table table;
   ScenarioNumbers numbers{table};
   std::vector<std::filesystem::path> files;
+  const MechanismParameters* machine = nullptr;  ///< of a mechanism
 
-  Document(const SweepFile& sweep, const Scenario& base) : table(parseToml(base.text, base.file.string())) {
+  Document(const SweepFile& sweep, const Scenario& base, const MechanismScenario* mechanism)
+      : table(parseToml(base.text, base.file.string())) {
+    if (mechanism != nullptr) machine = &mechanism->read.machine;
     takeTolerances(table, base.file.string());
     files = makeFilesAbsolute(table, base.file);
     if (!sweep.samples) return;
@@ -41,14 +64,47 @@ struct SweepPlan::Document {
 
   std::string text() const { return tomlText(table); }
 
+  /// Returns the keys that a key of the sweep means; `*` is every body, joint, leg or entry.
+  std::vector<std::string> expanded(const std::string& key) const {
+    const std::string prefix = "mechanism.";
+    if (machine == nullptr || key.rfind(prefix, 0) != 0) return numbers.expanded(key);
+    const std::vector<std::string> names = mechanismNumbers(*machine);
+    const std::size_t star = key.find('*');
+    if (star == std::string::npos) return {key};
+    std::vector<std::string> out;
+    const std::string before = key.substr(prefix.size(), star - prefix.size()), after = key.substr(star + 1);
+    for (const std::string& name : names)
+      if (name.size() > before.size() + after.size() && name.rfind(before, 0) == 0 &&
+          name.compare(name.size() - after.size(), after.size(), after) == 0)
+        out.push_back(prefix + name);
+    if (out.empty()) throw NumberKeyError(fmt::format("'{}': '*' stands for nothing in the model", key));
+    return out;
+  }
+
+  /// Returns the place of a key in the document. A number of the model is written there first.
+  std::string written(const std::string& key) {
+    const std::string prefix = "mechanism.";
+    if (machine == nullptr || key.rfind(prefix, 0) != 0) return key;
+    const std::string name = key.substr(prefix.size());
+    try {
+      const double value = mechanismNumber(*machine, name);
+      toml::table& mechanism = *table["mechanism"].as_table();
+      if (!mechanism.contains("numbers")) mechanism.insert("numbers", toml::table{});
+      mechanism["numbers"].as_table()->insert_or_assign(name, value);
+    } catch (const InvalidParameter& refusal) {
+      throw NumberKeyError(fmt::format("{}, expected {}", refusal.value(), refusal.bound()));
+    }
+    return "mechanism.numbers.\"" + name + '"';
+  }
+
   /// Throws ScenarioError at the sweep's key.
   std::vector<VariedNumber> hold(const SweepFile& sweep) {
     std::vector<VariedNumber> out;
     std::set<std::string> seen;
     for (const Vary& vary : sweep.vary) try {
-        for (const std::string& key : numbers.expanded(vary.key)) {
+        for (const std::string& key : expanded(vary.key)) {
           if (!seen.insert(key).second) throw NumberKeyError(fmt::format("'{}' varies twice, expected once", key));
-          out.push_back({key, vary.by, numbers.hold(key)});
+          out.push_back({key, vary.by, numbers.hold(written(key))});
           if (vary.by.values.empty() && numbers.isInteger(out.size() - 1))
             throw NumberKeyError(fmt::format("'{}': expected an integer, so 'values'", key));
           if (vary.by.kind == Variation::Kind::relative && out.back().nominal == 0)
@@ -64,9 +120,11 @@ struct SweepPlan::Document {
 
 SweepPlan::SweepPlan(SweepFile file)
     : file_(std::move(file)),
-      base_(readScenario(file_.scenario)),
-      document_(std::make_unique<Document>(file_, base_)),
+      mechanism_(mechanismOf(file_)),
+      base_(mechanism_ ? outlineOf(*mechanism_) : readScenario(file_.scenario)),
+      document_(std::make_unique<Document>(file_, base_, mechanism())),
       points_(file_, document_->hold(file_)) {
+  if (mechanism_) return;
   for (const VariedNumber& number : points_.numbers()) {
     const std::string part = number.key.substr(0, number.key.find('.'));
     bool& varies = part == "manipulator"  ? varies_machine_
@@ -104,6 +162,10 @@ std::string SweepPlan::text(std::int64_t i) {
   const std::string text = document_->text();
   *document_->table["name"].as_string() = name;
   return fmt::format("# Point {} of the sweep {}\n\n{}", i, file_.file.filename().string(), text);
+}
+
+MechanismScenario SweepPlan::readMechanism(std::int64_t i) {
+  return parseMechanism(text(i), fmt::format("point {} of {}", i, file_.file.filename().string()), partModelReader());
 }
 
 /// Errors have line numbers of the output of `sweep show`, not of the base scenario.

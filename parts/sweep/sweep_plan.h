@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "model/mechanism_scenario.h"
 #include "model/scenario.h"
 #include "parts/sweep/design.h"
 #include "parts/sweep/sweep_database.h"
@@ -22,6 +24,10 @@ class SweepPlan {
 
   const SweepFile& file() const { return file_; }
   const SweepPoints& points() const { return points_; }
+  /// Returns the varied scenario if it has [mechanism]; else null, and base() has it.
+  const MechanismScenario* mechanism() const { return mechanism_ ? &*mechanism_ : nullptr; }
+  /// Returns the scenario of point i of a mechanism. Throws ScenarioError for invalid numbers.
+  MechanismScenario readMechanism(std::int64_t i);
   /// Returns the varied scenario with the sweep's samples; its constant parts are those of every point.
   const Scenario& base() const { return base_; }
   SweepIdentity identity() const;
@@ -42,7 +48,8 @@ class SweepPlan {
   void setTo(std::int64_t i);
 
   SweepFile file_;
-  Scenario base_;
+  std::optional<MechanismScenario> mechanism_;
+  Scenario base_;  ///< of a mechanism only its name, file and text
   std::unique_ptr<Document> document_;
   bool varies_machine_ = false, varies_trajectory_ = false, varies_load_ = false, varies_other_ = false;
   SweepPoints points_;

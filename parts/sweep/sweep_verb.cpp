@@ -80,7 +80,7 @@ int sweep(const SweepOptions& options) {
     throw UsageError("--pointwise: expected a sweep with what = \"validate\"");
   file.pointwise = file.pointwise || options.pointwise;
   SweepPlan plan(std::move(file));
-  sayWarnings(plan.base());
+  if (plan.mechanism() == nullptr) sayWarnings(plan.base());
   if (options.slurm)
     return submitSweep(
         plan, {options.sweep, database, options.shards, options.jobs_given ? options.jobs : 1, options.dry_run});

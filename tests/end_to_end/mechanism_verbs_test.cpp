@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/csv.h"
 #include "tests/end_to_end/program.h"
@@ -40,7 +41,7 @@ TEST_F(MechanismVerbs, thoseThatTakeNoneSaySoInOneWay) {
   ursula_.write("log.csv", "t_s,tau_1_Nm\n0,1\n");
   const std::string says =
       "delta.toml:2:1: error: mechanism: this verb takes a scenario with [manipulator], and this "
-      "one has [mechanism], which check, validate, inverse, direct and simulate take";
+      "one has [mechanism], which check, validate, inverse, direct, simulate and sweep take";
   Refusals calls;
   for (const std::string call :
        {"map delta.toml", "poses delta.toml", "export delta.toml --format sdf", "excite delta.toml", "prove delta.toml",
@@ -49,10 +50,6 @@ TEST_F(MechanismVerbs, thoseThatTakeNoneSaySoInOneWay) {
   calls.emplace_back("check delta.toml --picture new.svg", "--picture: delta.toml has [mechanism]");
   calls.emplace_back("inverse delta.toml --format binary", "--format: delta.toml has [mechanism]");
   calls.emplace_back("sweep delta.toml", "mechanism: a scenario, expected a sweep");
-  ursula_.write("sweep.toml",
-                "scenario = \"delta.toml\"\ndesign = \"grid\"\n[[vary]]\nkey = \"trajectory.duration\"\n"
-                "values = [1, 2]\n");
-  calls.emplace_back("sweep sweep.toml", says);
   expectRefused(ursula_, calls);
 }
 
@@ -176,6 +173,65 @@ TEST_F(MechanismVerbs, namesMayHaveQuotes) {
   ASSERT_EQ(ursula_("init new.toml --model quoted.sdf --motors 'the \"crank\" \\ hinge'").exit_code, 0);
   const UrsulaRun check = ursula_("check new.toml");
   EXPECT_EQ(check.exit_code, 0) << check.err;
+}
+
+/// A sweep of two numbers of the model and one of the motion.
+const std::string swept =
+    "scenario = \"delta.toml\"\nwhat = \"inverse\"\ndesign = \"grid\"\nsamples = 11\n"
+    "[[vary]]\nkey = \"mechanism.gravity.2\"\nvalues = [-9.81, -1.62]\n"
+    "[[vary]]\nkey = \"mechanism.joint.arm0_motor.damping\"\nvalues = [0.0, 1.0]\n"
+    "[[vary]]\nkey = \"trajectory.motors.1.sin.0\"\nvalues = [0.02, 0.03]\n";
+
+TEST_F(MechanismVerbs, sweepFindsTheLargestEffortsOfItsPoints) {
+  ursula_.write("sweep.toml", swept);
+  const UrsulaRun run = ursula_("sweep sweep.toml --db sweep.db");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("8 points: 8 pass"));
+  ASSERT_EQ(ursula_("sweep report sweep.db --out page --csv rows.csv").exit_code, 0);
+  std::set<double> found;
+  const CsvTable rows =
+      readCsv(ursula_.folder() / "rows.csv", {[](const std::string& name) { return name == "tau_1_Nm"; }});
+  for (int i = 0; i < 8; ++i) {
+    ursula_.write("point.toml", ursula_("sweep show sweep.toml " + std::to_string(i)).out);
+    ASSERT_EQ(ursula_("inverse point.toml --samples 11 --out point.csv").exit_code, 0);
+    double largest = 0;
+    const CsvTable point = read("point.csv");
+    for (const double effort : point.at("tau_1_Nm")) largest = std::max(largest, std::abs(effort));
+    EXPECT_DOUBLE_EQ(rows.at("tau_1_Nm")[static_cast<std::size_t>(i)], largest) << "point " << i;
+    found.insert(largest);
+  }
+  EXPECT_EQ(found.size(), 8u) << "each number changes the efforts";
+}
+
+TEST_F(MechanismVerbs, sweepRefusesNumbersThatTheModelDoesNotHave) {
+  const auto with = [](std::string text, const std::string& old, const std::string& now) {
+    return text.replace(text.find(old), old.size(), now);
+  };
+  ursula_.write("a.toml", with(swept, "arm0_motor", "arm0_moter"));
+  ursula_.write("b.toml", with(swept, "sin.0", "sine.0"));
+  ursula_.write("d.toml", with(with(swept, "samples", "pointwise = true\nsamples"), "inverse", "validate"));
+  const std::string delta = TemporaryFolder::read(ursula_.folder() / "delta.toml");
+  ursula_.write("numbers.toml", delta + "[mechanism.numbers]\n\"body.nobody.mass\" = 1\n");
+  expectRefused(ursula_,
+                {{"sweep a.toml", "a.toml:9:7: error: 'joint.arm0_moter.damping', the model has no such number"},
+                 {"sweep b.toml", "no key 'sine'"},
+                 {"sweep d.toml", "pointwise: delta.toml has [mechanism]"},
+                 {"check numbers.toml", "'body.nobody.mass', the model has no such number"}});
+}
+
+TEST_F(MechanismVerbs, numbersOfAScenarioAreThoseOfAnEditedModel) {
+  std::string model = TemporaryFolder::read(ursula_.folder() / "fourbar.xml");
+  const std::string old = "mass=\"1.2\" fullinertia=\"0.00813263066084988 ";
+  ASSERT_NE(model.find(old), std::string::npos);
+  ursula_.write("edited.xml", model.replace(model.find(old), old.size(), "mass=\"1.5\" fullinertia=\"0.0085 "));
+  std::string text = TemporaryFolder::read(ursula_.folder() / "fourbar.toml");
+  ursula_.write("numbers.toml",
+                text + "[mechanism.numbers]\n\"body.crank.mass\" = 1.5\n\"body.crank.inertia.xx\" = 0.0085\n");
+  ursula_.write("edited.toml", text.replace(text.find("fourbar.xml"), 11, "edited.xml"));
+  for (const std::string name : {"numbers", "edited", "fourbar"})
+    ASSERT_EQ(ursula_("inverse " + name + ".toml --samples 5 --out " + name + ".csv").exit_code, 0);
+  EXPECT_LT(largestDifference(read("numbers.csv"), read("edited.csv")), 1e-12);
+  EXPECT_GT(largestDifference(read("numbers.csv"), read("fourbar.csv")), 1e-3);
 }
 
 class SimulateMechanism : public MechanismVerbs, public testing::WithParamInterface<std::string> {
