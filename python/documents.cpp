@@ -104,7 +104,7 @@ std::shared_ptr<ScenarioWithSolver> importModel(const std::filesystem::path& fil
   std::shared_ptr<ScenarioWithSolver> out;
   try {
     const Unlocked unlocked;
-    exchange::Imported imported = exchange::importModel(file, {base, platform, actuated, close, tolerance, lump});
+    exchange::Imported imported = exchange::importModel(file, {base, platform, actuated, close, {}, tolerance, lump});
     const std::filesystem::path named = std::filesystem::path(file).replace_extension(".toml");
     out = std::make_shared<ScenarioWithSolver>(parseScenario(imported.scenario, named));
     out->assumptions = std::move(imported.assumptions);

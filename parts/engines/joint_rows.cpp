@@ -137,25 +137,55 @@ std::vector<JointCoordinate> coordinatesOf(const Mechanism& mechanism, std::size
   return out;
 }
 
+namespace {
+
+/// Welds that slides join: the first of them stands for all.
+std::vector<std::size_t> strutsOf(const Mechanism& mechanism, const WeldedMechanism& welded) {
+  std::vector<std::size_t> strut(welded.welds.size());
+  for (std::size_t b = 0; b < strut.size(); ++b) strut[b] = b;
+  for (const MechanismJoint& joint : mechanism.joints()) {
+    if (!joint.slides() || joint.isOpen()) continue;
+    const std::size_t a = strut[welded.parentOf(joint)], b = strut[welded.childOf(joint)];
+    std::replace(strut.begin(), strut.end(), std::max(a, b), std::min(a, b));
+  }
+  return strut;
+}
+
+/// Returns the two balls of a strut that nothing else holds, and that slides along their line; else none.
+std::vector<Vector3d> ballsOf(const Mechanism& mechanism, const WeldedMechanism& welded,
+                              const std::vector<std::size_t>& strut, std::size_t of) {
+  std::vector<Vector3d> balls;
+  for (const MechanismJoint& joint : mechanism.joints()) {
+    const bool of_parent = strut[welded.parentOf(joint)] == of, of_child = strut[welded.childOf(joint)] == of;
+    if (of_parent == of_child) continue;
+    if (joint.kind != JointKind::ball || joint.isLoaded()) return {};
+    balls.push_back(of_parent ? joint.centre : joint.centre_of_child);
+  }
+  if (balls.size() != 2 || (balls[1] - balls[0]).norm() < 1e-9 * mechanism.length()) return {};
+  const Vector3d line = (balls[1] - balls[0]).normalized();
+  for (const MechanismJoint& joint : mechanism.joints())
+    if (joint.slides() && strut[welded.parentOf(joint)] == of && joint.axis[0].cross(line).norm() > 1e-9) return {};
+  return balls;
+}
+
+}  // namespace
+
 std::vector<JointRow> idleRows(const Mechanism& mechanism, const WeldedMechanism& welded) {
   std::vector<JointRow> out;
-  for (std::size_t b = 1; b < welded.welds.size(); ++b) {
-    std::vector<Vector3d> balls;
-    bool is_rod = true;
-    for (const MechanismJoint& joint : mechanism.joints()) {
-      const bool of_parent = welded.parentOf(joint) == b, of_child = welded.childOf(joint) == b;
-      if (of_parent == of_child) continue;
-      is_rod = is_rod && joint.kind == JointKind::ball && !joint.isLoaded();
-      balls.push_back(of_parent ? joint.centre : joint.centre_of_child);
-    }
-    if (!is_rod || balls.size() != 2) continue;
-    const Vector3d apart = balls[1] - balls[0];
-    if (apart.norm() < 1e-9 * mechanism.length()) continue;
-    if (!isIdleAbout(welded.welds[b], apart.normalized(), balls[0], mechanism.length())) continue;
+  const std::vector<std::size_t> strut = strutsOf(mechanism, welded);
+  for (std::size_t of = 1; of < strut.size(); ++of) {
+    if (strut[of] != of) continue;
+    const std::vector<Vector3d> balls = ballsOf(mechanism, welded, strut, of);
+    if (balls.empty()) continue;
+    const Vector3d line = (balls[1] - balls[0]).normalized();
+    bool is_idle = true;
+    for (std::size_t b = 1; b < strut.size(); ++b)
+      if (strut[b] == of) is_idle = is_idle && isIdleAbout(welded.welds[b], line, balls[0], mechanism.length());
+    if (!is_idle) continue;
     JointRow row;
     row.kind = Kind::turn;
-    row.b = b;
-    row.along = apart.normalized();
+    row.b = of;
+    row.along = line;
     row.is_on_b = true;
     out.push_back(row);
   }
