@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "base/csv.h"
+#include "base/csv_dialect.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "model/mechanism_keys.h"
@@ -76,6 +78,27 @@ std::unique_ptr<MotorTrajectory> readHold(const TomlSection& table, const Mechan
   return makeMotorHold(duration, Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size())));
 }
 
+/// Returns the same table in s, rad and m, by columns in ms, us, degrees and mm.
+CsvTable inSi(CsvTable table) {
+  const std::tuple<const char*, const char*, double> units[] = {
+      {"_ms", "_s", 1e-3}, {"_us", "_s", 1e-6}, {"_deg", "_rad", degree}, {"_mm", "_m", 1e-3}};
+  for (std::size_t c = 0; c < table.names.size(); ++c)
+    for (const auto& [from, to, factor] : units) {
+      std::string& name = table.names[c];
+      const std::size_t at = name.find(from);
+      const bool of_time = std::string(to) == "_s";
+      if (at == std::string::npos || (of_time && name != std::string("t") + from)) continue;
+      const std::size_t end = at + std::string(from).size();
+      if (end < name.size() && name.compare(end, 2, "_s") != 0) continue;
+      const std::string si = name.substr(0, at) + to + name.substr(end);
+      if (table.find(si) != nullptr) continue;
+      name = si;
+      for (double& value : table.columns[c]) value *= factor;
+      break;
+    }
+  return table;
+}
+
 /// Returns the column of one quantity of motor k, by number or by the joint's own name; null if there is none.
 const std::vector<double>* columnOf(const CsvTable& table, const Mechanism& mechanism, std::size_t k, const char* of) {
   const std::string named = motorColumn(mechanism, k, of);
@@ -92,7 +115,10 @@ std::unique_ptr<MotorTrajectory> readMotorSamples(const TomlSection& table, cons
   table.require("file", name);
   std::filesystem::path file = name;
   if (file.is_relative()) file = std::filesystem::path(table.file()).parent_path() / file;
-  const CsvTable read = readCsv(file);
+  const std::string text = readCsvText(file);
+  CsvOptions options;
+  options.dialect = guessDialect(text, file);
+  const CsvTable read = inSi(parseCsv(text, file, options));
   const Eigen::MatrixXd rates = motorColumns(read, mechanism, "qdot", false);
   const Eigen::MatrixXd accelerations = motorColumns(read, mechanism, "qddot", false);
   try {

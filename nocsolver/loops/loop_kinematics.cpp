@@ -105,9 +105,17 @@ void LoopSolver::kinematics(const MotorMotion& motion, const LoopPose& near, Loo
   }
 }
 
+void moveToStart(const LoopSolver& solver, const MotorTrajectory& trajectory, LoopPose& pose) {
+  try {
+    solver.moveTo(trajectory.at(0).q, pose);
+  } catch (const LoopError& error) {
+    throw LoopError(std::string(error.what()) + ", on the way from the file's pose to t = 0 s");
+  }
+}
+
 LoopMotion::LoopMotion(const LoopSolver& solver, const MotorTrajectory& trajectory, LoopPose start)
     : solver_(&solver), trajectory_(&trajectory) {
-  solver.moveTo(trajectory.at(0).q, start);
+  moveToStart(solver, trajectory, start);
   times_.push_back(0);
   poses_.push_back(std::move(start));
   constexpr int steps = 128;
@@ -139,7 +147,9 @@ VectorXd LoopMotion::inverseDynamics(double t, LoopWork& work) const {
   const MotorMotion motion = trajectory_->at(t);
   LoopPose pose = near(t);
   solver_->moveTo(motion.q, pose);
-  return solver_->inverseDynamics(motion, pose, work);
+  VectorXd out = solver_->inverseDynamics(motion, pose, work);
+  if (!out.allFinite()) throw LoopError("the motion needs efforts beyond all numbers, at t = " + std::to_string(t) + " s");
+  return out;
 }
 
 }  // namespace ursula

@@ -96,6 +96,9 @@ class LoopSolver {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Moves a pose to where the motion starts. Throws LoopError, which says so.
+void moveToStart(const LoopSolver& solver, const MotorTrajectory& trajectory, loops::LoopPose& pose);
+
 /// A solver along a motion: it follows the loops once, from the assembly at the start. Immutable; threads share it.
 class LoopMotion {
  public:

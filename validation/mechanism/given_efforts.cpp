@@ -21,6 +21,19 @@ std::string columnOf(const CsvTable& table, const Mechanism& mechanism, std::siz
   return by_number;
 }
 
+/// Instants k·step are exact, since rounding would be visible; others may be off by half of their last digit.
+void setTimePrecision(const std::vector<int>& places, GivenEfforts& out) {
+  constexpr double rounding_of_sums = 1e-13;
+  if (out.t.size() < 3) return;
+  const double step = (out.t.back() - out.t.front()) / static_cast<double>(out.t.size() - 1);
+  double off = 0;
+  for (std::size_t i = 0; i < out.t.size(); ++i)
+    off = std::max(off, std::abs(out.t[i] - (out.t.front() + static_cast<double>(i) * step)));
+  const double half = 0.5 * std::pow(10.0, *std::min_element(places.begin(), places.end()));
+  if (off <= rounding_of_sums * out.t.back() || half <= rounding_of_sums * out.t.back()) return;
+  out.time_precision.assign(out.t.size(), half);
+}
+
 void requireInstants(const CsvTable& table, std::vector<double>& t, double duration) {
   for (std::size_t i = 0; i < t.size(); ++i) {
     if (i > 0 && !(t[i] > t[i - 1]))
@@ -69,6 +82,8 @@ GivenEfforts effortsIn(const CsvTable& table, const Mechanism& mechanism, double
       out.precision[i](k) = printed.of(out.efforts[i](k), (*places[static_cast<std::size_t>(k)])[i]);
   for (const std::string& name : table.names)
     if (std::find(used.begin(), used.end(), name) == used.end()) out.ignored.push_back(name);
+  const auto at = static_cast<std::size_t>(std::find(table.names.begin(), table.names.end(), time) - table.names.begin());
+  setTimePrecision(table.last_places[at], out);
   requireInstants(table, out.t, duration);
   return out;
 }

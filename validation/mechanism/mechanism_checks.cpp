@@ -141,8 +141,9 @@ Check judgeInvariance(const Judge& judge, const MechanismInvariance& invariance)
   for (const InvarianceSample& sample : invariance.samples)
     for (Eigen::Index k = 0; k < sample.difference.size(); ++k) {
       condition = std::max(condition, sample.condition);
-      const double limit = evidence.level * rounding * sample.condition * sample.condition * sample.scale(k);
-      worst.add(std::abs(sample.difference(k)) * evidence.efforts_in(k), 2 * limit * evidence.efforts_in(k), sample.t,
+      const double shape = rounding * sample.condition * sample.condition * sample.scale(k) * evidence.efforts_in(k);
+      worst.add(std::abs(sample.difference(k)) * evidence.efforts_in(k),
+                2 * (evidence.level + evidence.motion_level) * shape, sample.t,
                 static_cast<int>(k));
     }
   CheckedQuantity of{invariance.check, evidence.unit, evidence.largest};

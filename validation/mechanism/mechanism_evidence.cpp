@@ -168,10 +168,26 @@ std::vector<const MechanismSample*> someOf(const std::vector<MechanismSample>& s
   return out;
 }
 
+/// Measures how the NOC's efforts change if the motion, or time, changes by one rounding.
+void measureMotion(const MechanismSample& sample, const MotorMotion& moved, MechanismEvidence& evidence) {
+  const LoopMotion& motion = *evidence.motion;
+  LoopWork work;
+  loops::LoopPose pose = motion.near(sample.motion.t);
+  motion.solver().moveTo(moved.q, pose);
+  MotorEfforts change = (motion.solver().inverseDynamics(moved, pose, work) - sample.noc).cwiseAbs();
+  const double duration = motion.trajectory().duration();
+  const double later = sample.motion.t < duration / 2 ? sample.motion.t + rounding * duration : sample.motion.t - rounding * duration;
+  change += (motion.inverseDynamics(later, work) - sample.noc).cwiseAbs();
+  for (Eigen::Index k = 0; k < change.size(); ++k)
+    if (const double shape = evidence.shape(sample, k); shape > 0)
+      evidence.motion_level = std::max(evidence.motion_level, safety * change(k) * evidence.efforts_in(k) / shape);
+}
+
 /// Measures how an engine's efforts and accelerations change if its inputs change by one rounding.
 void measureLevels(SimbodyMechanism& simbody, MechanismEvidence& evidence) {
   for (const MechanismSample* sample : someOf(evidence.samples)) {
     const MotorMotion moved = movedByRounding(sample->motion);
+    measureMotion(*sample, moved, evidence);
     for (std::size_t e = 0; e < evidence.engines.size(); ++e) {
       MechanismEngine& engine = evidence.engines[e];
       const MotorEfforts change = engine.efforts(moved) - sample->engines[e];
@@ -186,6 +202,22 @@ void measureLevels(SimbodyMechanism& simbody, MechanismEvidence& evidence) {
       if (response(k) > 0)
         evidence.acceleration_level = std::max(evidence.acceleration_level, safety * std::abs(change(k)) / response(k));
   }
+}
+
+}  // namespace
+
+namespace {
+
+/// The largest change of the efforts within a time of an instant, as rounded stamps of time leave it open.
+MotorEfforts changeWithin(const LoopMotion& motion, double t, double time, const MotorEfforts& at) {
+  MotorEfforts out = MotorEfforts::Zero(at.size());
+  if (!(time > 0)) return out;
+  LoopWork work;
+  for (const double other : {t - time, t + time}) {
+    const double inside = std::clamp(other, 0.0, motion.trajectory().duration());
+    out = out.cwiseMax((motion.inverseDynamics(inside, work) - at).cwiseAbs()).eval();
+  }
+  return out;
 }
 
 }  // namespace
@@ -223,6 +255,8 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
     sample.given = subject.given ? subject.given->precision[i] : MotorEfforts::Zero(sample.noc.size());
     sample.scale = solver.effortScale(work);
     sample.condition = 1 / work.reciprocal_condition;
+    if (subject.given && !subject.given->time_precision.empty())
+      sample.given += changeWithin(motion, instants[i], subject.given->time_precision[i], sample.noc);
     sample.output = work.bodies[mechanism.output()].displacement * mechanism.bodies()[mechanism.output()].frame;
     simbody.place(sample.motion);
     compareBodies(simbody, work, mechanism.length(), idle, sample);

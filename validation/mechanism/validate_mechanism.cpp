@@ -209,7 +209,7 @@ MechanismAlong::MechanismAlong(const MechanismScenario& scenario) {
   solver_ = std::make_unique<LoopSolver>(*scenario.mechanism);
   loops::LoopPose start = solver_->assembled();
   requireMotors(scenario, solver_->freedoms(start));
-  solver_->moveTo(scenario.trajectory->at(0).q, start);
+  moveToStart(*solver_, *scenario.trajectory, start);
   freedoms_ = solver_->freedoms(start);
   requireMotors(scenario, freedoms_);
   motion_ = std::make_unique<LoopMotion>(*solver_, *scenario.trajectory, start);

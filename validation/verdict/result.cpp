@@ -128,6 +128,20 @@ Check notCovered(const CheckedQuantity& quantity, const JudgedValue& shown, std:
   return out;
 }
 
+/// Missing digits hide a larger error than this share of the quantity: nobody would call that a comparison.
+constexpr double most_coarse = 0.1;
+
+Check tooCoarse(const CheckedQuantity& quantity, const JudgedValue& shown, const WorstShare& worst, std::string basis,
+                const std::string& why) {
+  Check out = notJudgeable(
+      Reason::not_covered, quantity.name, shown.value, shown.limit, quantity.unit, std::move(basis),
+      fmt::format("{}; the printed digits leave {:.2g} of the largest value open, expected more digits", why,
+                  quantity.given / quantity.size));
+  out.missed = quantity.given / quantity.size;
+  out.largest = {worst.largest, worst.largest_t, ""};
+  return out;
+}
+
 }  // namespace
 
 Check judgedIfUseful(const CheckedQuantity& quantity, const WorstShare& worst, std::string basis, std::string why,
@@ -136,6 +150,8 @@ Check judgedIfUseful(const CheckedQuantity& quantity, const WorstShare& worst, s
   const JudgedValue shown = worst.shown(useful);
   if (!shown.beyond && quantity.seen <= useful_share * quantity.along)
     return notCovered(quantity, shown, std::move(basis));
+  if (!shown.beyond && quantity.size > 0 && quantity.given > most_coarse * quantity.size)
+    return tooCoarse(quantity, shown, worst, std::move(basis), why);
   const std::string wide =
       std::isfinite(worst.widest_limit)
           ? fmt::format("the derived limit is at most {:.3g} of the quantity's size: {}",
