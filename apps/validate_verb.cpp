@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "apps/ci_findings.h"
 #include "apps/files_apart.h"
 #include "apps/mechanism.h"
 #include "apps/output.h"
@@ -19,6 +20,7 @@
 #include "model/scenario_files.h"
 #include "report/files/report.h"
 #include "report/files/run.h"
+#include "report/files/written_files.h"
 #include "validation/outside/external_solver.h"
 #include "validation/validate.h"
 
@@ -30,7 +32,7 @@ constexpr double suite_time_limit = 600;
 
 struct ValidateOptions {
   std::vector<std::string> scenarios, map;
-  std::string torques, out;
+  std::string torques, out, format, against;
   ExternalSolverOptions solver;  ///< the solver under test, if it has a command
   EffortTolerance tolerance;     ///< zeros if not given
   double time_limit = 0;         ///< per scenario, s; 0 if not given
@@ -91,14 +93,39 @@ ValidationResult judge(const SuiteMember& member, const ValidateOptions& options
   return judgeMechanism(*member.mechanism, options.torques, options.map, options.solver, validation);
 }
 
+/// Prints results in the form that was asked for, by `print` if that is no form for CI, and what changed since an
+/// earlier run. `folders` are those of the results, below `dir`.
+void printAll(const std::vector<SuiteMember>& members, const std::vector<std::filesystem::path>& folders,
+              const std::vector<std::string>& errors, const std::filesystem::path& dir, const ValidateOptions& options,
+              const std::vector<std::string>& older, const std::function<void()>& print) {
+  std::vector<JudgedFile> judged;
+  for (std::size_t k = 0; k < members.size(); ++k)
+    judged.push_back({members[k].file.string(),
+                      errors[k].empty() ? summaryIn(dir / folders[k]) : report::errorJson(members[k].name, errors[k])});
+  if (options.format == "github")
+    writeOutput("-", githubText(judged));
+  else if (options.format == "sarif")
+    writeOutput("-", sarifText(judged));
+  else
+    print();
+  if (options.against.empty()) return;
+  std::string changes;
+  for (std::size_t k = 0; k < members.size(); ++k)
+    changes += fmt::format("{}, since {}:\n{}", members[k].name, shownPath(options.against),
+                           changesSince(older[k], judged[k].summary));
+  const bool data_alone = options.json || !options.format.empty();
+  data_alone ? sayText(changes) : writeOutput("-", changes);
+}
+
 int validateOne(const SuiteMember& member, const ValidateOptions& options, const std::filesystem::path& dir) {
   OutputFolder out(dir, report::resultsIn);
   requireResults(out, "");
+  const std::vector<std::string> older = {options.against.empty() ? "" : summaryIn(options.against)};
   const Stopwatch watch;
   ValidationResult result = judge(member, options);
   addResults(result, out, "", watch.time(), Place::alone);
   out.commit();
-  printResult(result, dir, options.form());
+  printAll({member}, {""}, {""}, dir, options, older, [&] { printResult(result, dir, options.form()); });
   return exitCode(result.verdict);
 }
 
@@ -122,6 +149,24 @@ class SuiteProgress {
   Progress bar_;
 };
 
+/// Judges the efforts beside a scenario, or what the options name.
+ValidationResult judgeInSuite(const SuiteMember& member, const ValidateOptions& options,
+                              const ValidationOptions& validation) {
+  const bool from_file = !member.torques.empty() && options.solver.command.empty();
+  if (member.mechanism) {
+    MechanismOptions of_mechanism;
+    of_mechanism.time_limit = validation.time_limit;
+    return judgeMechanism(*member.mechanism, from_file ? member.torques.string() : "", {}, options.solver,
+                          of_mechanism);
+  }
+  const Scenario& scenario = *member.scenario;
+  if (from_file)
+    return validateExternal(scenario, readTorqueFile(member.torques, {}, scenario.manipulator->motors()),
+                            validation.time_limit);
+  return options.solver.command.empty() ? validate(scenario, validation)
+                                        : validateExternalSolver(scenario, options.solver, validation);
+}
+
 int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions& options,
                   const std::filesystem::path& dir) {
   for (const SuiteMember& member : members)
@@ -131,24 +176,27 @@ int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions
   ValidationOptions validation;
   validation.time_limit = options.time_limit > 0 ? options.time_limit : suite_time_limit;
   suite.judge = [validation, &options](const SuiteMember& member) {
-    if (!member.scenario) {
-      MechanismOptions of_mechanism;
-      of_mechanism.time_limit = validation.time_limit;
-      return judgeMechanism(*member.mechanism, "", {}, options.solver, of_mechanism);
-    }
-    const Scenario& scenario = *member.scenario;
-    if (!options.quiet) sayWork(scenario, validation.time_limit, !options.solver.command.empty());
-    return options.solver.command.empty() ? validate(scenario, validation)
-                                          : validateExternalSolver(scenario, options.solver, validation);
+    if (!options.quiet && member.scenario && member.torques.empty())
+      sayWork(*member.scenario, validation.time_limit, !options.solver.command.empty());
+    return judgeInSuite(member, options, validation);
   };
   std::optional<SuiteProgress> progress;
   if (!options.quiet) progress.emplace(members.size());
   suite.finished = [&progress](const SuiteEntry& entry, std::size_t done) {
     if (progress) progress->finished(entry, done);
   };
+  std::vector<std::string> older;
+  for (const SuiteMember& member : members)
+    older.push_back(options.against.empty() ? "" : summaryIn(std::filesystem::path(options.against) / member.name));
   const std::vector<SuiteEntry> entries = runSuite(members, dir, suite);
   progress.reset();
-  printSuite(entries, dir, options.form());
+  std::vector<std::filesystem::path> folders;
+  std::vector<std::string> errors;
+  for (const SuiteEntry& entry : entries) {
+    folders.push_back(entry.folder);
+    errors.push_back(entry.error);
+  }
+  printAll(members, folders, errors, dir, options, older, [&] { printSuite(entries, dir, options.form()); });
   return exitCode(entries);
 }
 
@@ -196,6 +244,7 @@ std::vector<std::filesystem::path> inputsOf(const ValidateOptions& options, cons
   std::vector<std::filesystem::path> out(options.scenarios.begin(), options.scenarios.end());
   if (!options.torques.empty()) out.emplace_back(options.torques);
   for (const SuiteMember& member : members) {
+    if (!member.torques.empty()) out.push_back(member.torques);
     if (member.mechanism) out.push_back(member.mechanism->model);
     if (!member.scenario) continue;
     for (std::filesystem::path& each : filesNamedBy(*member.scenario)) out.push_back(std::move(each));
@@ -235,6 +284,12 @@ void addOutputOptions(CLI::App& verb, ValidateOptions& options) {
   verb.add_flag("--quiet", options.quiet,
                 "Prints one line for each scenario: the verdict, and the reason unless it is a pass; no progress")
       ->excludes(json);
+  verb.add_option("--format", options.format,
+                  "Prints findings for CI on standard output instead: github (workflow commands), sarif (SARIF 2.1.0)")
+      ->check(CLI::IsMember({"github", "sarif"}))
+      ->excludes(json);
+  verb.add_option("--against", options.against,
+                  "Folder of an earlier run's results: also prints what changed since. May be that of --out");
 }
 
 void addOtherSolvers(CLI::App& verb, ValidateOptions& options) {

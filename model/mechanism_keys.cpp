@@ -38,6 +38,14 @@ ScenarioTable mechanism() {
                  "`passive-armature`")}};
 }
 
+ScenarioTable numbers() {
+  return {"mechanism.numbers",
+          "[mechanism.numbers]",
+          "Numbers in place of the model's: `\"body.NAME.mass\"`, `.center_of_mass.0` to `.2`, `.inertia.xx` …, "
+          "`\"joint.NAME.damping\"`, `friction`, `armature`, `stiffness`, `springref`, `\"gravity.2\"`.",
+          {}};
+}
+
 ScenarioKey kind() {
   return choiceKey("kind", required_key, "what the motion is made of", {"fourier", "samples", "hold"});
 }
@@ -79,7 +87,7 @@ std::vector<ScenarioTable> motions() {
 
 const std::vector<ScenarioTable>& mechanismTables() {
   static const std::vector<ScenarioTable> tables = [] {
-    std::vector<ScenarioTable> all = {document(), mechanism()};
+    std::vector<ScenarioTable> all = {document(), mechanism(), numbers()};
     for (ScenarioTable& each : motions()) all.push_back(std::move(each));
     return all;
   }();

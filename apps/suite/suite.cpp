@@ -35,6 +35,7 @@ std::vector<std::filesystem::path> scenariosIn(const std::filesystem::path& fold
 SuiteMember readMember(const std::filesystem::path& file) {
   SuiteMember member;
   member.name = file.string();
+  member.file = file;
   try {
     std::string text = scenarioNotModel(file);
     if (isMechanism(text)) {
@@ -58,12 +59,30 @@ SuiteMember readMember(const std::filesystem::path& file) {
   return member;
 }
 
+/// Returns NAME.csv beside NAME.toml if it is there and not a file that the scenario itself names.
+std::filesystem::path effortsBeside(const SuiteMember& member) {
+  std::filesystem::path csv = member.file;
+  csv.replace_extension(".csv");
+  std::error_code ignored;
+  if (!member.isRead() || !std::filesystem::is_regular_file(csv, ignored)) return {};
+  const std::string text = member.scenario ? member.scenario->text : member.mechanism->text;
+  for (const std::filesystem::path& named : filesNamedBy(text, member.file))
+    if (std::filesystem::equivalent(named, csv, ignored)) return {};
+  return csv;
+}
+
 void readFolder(const std::filesystem::path& folder, std::vector<SuiteMember>& members) {
   const std::vector<std::filesystem::path> files = scenariosIn(folder);
-  for (const std::filesystem::path& file : files) members.push_back(readMember(file));
-  if (files.empty())
-    members.push_back(
-        {folder.string(), {}, nullptr, folder.string() + ": error: no scenario in this folder, expected *.toml", ""});
+  for (const std::filesystem::path& file : files) {
+    members.push_back(readMember(file));
+    members.back().torques = effortsBeside(members.back());
+  }
+  if (!files.empty()) return;
+  SuiteMember none;
+  none.name = folder.string();
+  none.file = folder;
+  none.error = folder.string() + ": error: no scenario in this folder, expected *.toml";
+  members.push_back(std::move(none));
 }
 
 /// The names become folders next to the suite's own files.

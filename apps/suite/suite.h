@@ -17,7 +17,9 @@ namespace ursula {
 
 /// One scenario of a suite: parsed and checked, or its error.
 struct SuiteMember {
-  std::string name;  ///< the scenario's name, or the file's if it could not be read
+  std::string name;                    ///< the scenario's name, or the file's if it could not be read
+  std::filesystem::path file = {};     ///< as the caller named it
+  std::filesystem::path torques = {};  ///< efforts to judge: NAME.csv beside NAME.toml in a folder; else empty
   std::optional<Scenario> scenario;
   std::shared_ptr<const MechanismScenario> mechanism = nullptr;  ///< instead, for a scenario with [mechanism]
   std::string error = {};      ///< why it cannot be judged, starting with file:line:column; else empty

@@ -148,7 +148,8 @@ VectorXd LoopMotion::inverseDynamics(double t, LoopWork& work) const {
   LoopPose pose = near(t);
   solver_->moveTo(motion.q, pose);
   VectorXd out = solver_->inverseDynamics(motion, pose, work);
-  if (!out.allFinite()) throw LoopError("the motion needs efforts beyond all numbers, at t = " + std::to_string(t) + " s");
+  if (!out.allFinite())
+    throw LoopError("the motion needs efforts beyond all numbers, at t = " + std::to_string(t) + " s");
   return out;
 }
 

@@ -170,7 +170,7 @@ bool nameDigits(const EffortResidual& data, ValidationResult& result) {
   };
   std::string words;
   if (all([&](double found, double off, double limit) {
-        return found == static_cast<double>(static_cast<float>(found)) && off <= single / rounding * limit;
+        return found == static_cast<double>(static_cast<float>(found)) && off <= single * std::abs(found) + limit;
       }))
     words = "the efforts have single precision";
   for (int digits = 1; digits <= 12 && words.empty(); ++digits) {

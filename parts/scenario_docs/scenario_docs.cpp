@@ -234,7 +234,8 @@ Json kindsOf(const ScenarioTable& trajectory, Find find) {
 Json schemaOf(const ScenarioTable& table, Find find) {
   if (table.name == std::string("trajectory")) return kindsOf(table, find);
   Json out = plainSchemaOf(table, find);
-  if (table.name == std::string("acceptance"))  // names of checks may be dotted keys and thus tables
+  const bool by_name = table.name == std::string("acceptance") || table.name == std::string("mechanism.numbers");
+  if (by_name)  // names of checks, bodies and joints may be dotted keys and thus tables
     out["additionalProperties"] = {{"type", {"number", "object"}}};
   if (table.name == std::string("acceptance.torque")) out["additionalProperties"] = {{"type", {"number", "object"}}};
   return out;

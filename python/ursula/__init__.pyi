@@ -258,6 +258,8 @@ class Cause:
     @property
     def body(self) -> str | None: ...
     @property
+    def joint(self) -> str | None: ...
+    @property
     def parameter(self) -> str | None:
         """Path in the scenario."""
     @property

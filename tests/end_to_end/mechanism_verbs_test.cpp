@@ -47,7 +47,6 @@ TEST_F(MechanismVerbs, thoseThatTakeNoneSaySoInOneWay) {
        {"map delta.toml", "poses delta.toml", "export delta.toml --format sdf", "excite delta.toml", "prove delta.toml",
         "identify delta.toml --measured log.csv", "init new.toml --from delta.toml --lengths mm"})
     calls.emplace_back(call, says);
-  calls.emplace_back("check delta.toml --picture new.svg", "--picture: delta.toml has [mechanism]");
   calls.emplace_back("inverse delta.toml --format binary", "--format: delta.toml has [mechanism]");
   calls.emplace_back("sweep delta.toml", "mechanism: a scenario, expected a sweep");
   expectRefused(ursula_, calls);

@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   int count = 0;
   for (int k = 1; k < argc; ++k)
     for (const auto& entry : std::filesystem::directory_iterator(argv[k])) {
+      if (!entry.is_regular_file()) continue;
       std::ifstream in(entry.path(), std::ios::binary);
       const std::vector<char> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
       LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());

@@ -78,7 +78,8 @@ INSTANTIATE_TEST_SUITE_P(
     nameOf);
 
 TEST(RefusedScenario, namesAMissingTable) {
-  EXPECT_EQ(refusalAtMark("@name = \"x\"\n"), "missing key 'manipulator', expected a table [manipulator] or [mechanism]");
+  EXPECT_EQ(refusalAtMark("@name = \"x\"\n"),
+            "missing key 'manipulator', expected a table [manipulator] or [mechanism]");
   EXPECT_EQ(refusalAtMark("name = \"x\"\n@[manipulator]\ngravity = [0, 0, 1]\n"),
             "missing key 'platform' in manipulator, expected a table");
   const std::string without_trajectory = good_scenario.substr(0, good_scenario.find("[trajectory]"));

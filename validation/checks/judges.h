@@ -137,8 +137,8 @@ Check judgeLoadTable(const std::vector<TimedWrench>& rows, const std::function<W
 
 /// Sorts the checks in the order of checkCatalogue() and adds those that do not apply, each with its reason.
 void listEveryCheck(const Scenario& scenario, const SubjectHas& has, ValidationResult& result);
-/// The same by `why_not`, which returns why a check does not apply; empty if it does. Checks that `out_of_time` left out
-/// are unfinished.
+/// The same by `why_not`, which returns why a check does not apply; empty if it does. Checks that `out_of_time` left
+/// out are unfinished.
 void listEveryCheck(const std::function<std::string(const CheckRow&)>& why_not, const std::string& out_of_time,
                     ValidationResult& result);
 

@@ -148,8 +148,7 @@ void judgeByTolerance(const std::optional<EffortTolerance>& given, const std::ve
   for (Check& check : result.checks) {
     if (isOfTorques(check)) judgeByUser(deviation.allowed, whose, check);
     if (!isReported(check) || check.verdict == Verdict::not_applicable) continue;
-    if (isNamed(acceptance, check.name) ||
-        (check.reason == Reason::not_covered && !(between <= deviation.allowed)))
+    if (isNamed(acceptance, check.name) || (check.reason == Reason::not_covered && !(between <= deviation.allowed)))
       continue;
     check.verdict = Verdict::not_applicable;
     check.reason = Reason::reported;

@@ -82,7 +82,8 @@ GivenEfforts effortsIn(const CsvTable& table, const Mechanism& mechanism, double
       out.precision[i](k) = printed.of(out.efforts[i](k), (*places[static_cast<std::size_t>(k)])[i]);
   for (const std::string& name : table.names)
     if (std::find(used.begin(), used.end(), name) == used.end()) out.ignored.push_back(name);
-  const auto at = static_cast<std::size_t>(std::find(table.names.begin(), table.names.end(), time) - table.names.begin());
+  const auto at =
+      static_cast<std::size_t>(std::find(table.names.begin(), table.names.end(), time) - table.names.begin());
   setTimePrecision(table.last_places[at], out);
   requireInstants(table, out.t, duration);
   return out;

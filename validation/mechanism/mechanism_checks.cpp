@@ -143,8 +143,7 @@ Check judgeInvariance(const Judge& judge, const MechanismInvariance& invariance)
       condition = std::max(condition, sample.condition);
       const double shape = rounding * sample.condition * sample.condition * sample.scale(k) * evidence.efforts_in(k);
       worst.add(std::abs(sample.difference(k)) * evidence.efforts_in(k),
-                2 * (evidence.level + evidence.motion_level) * shape, sample.t,
-                static_cast<int>(k));
+                2 * (evidence.level + evidence.motion_level) * shape, sample.t, static_cast<int>(k));
     }
   CheckedQuantity of{invariance.check, evidence.unit, evidence.largest};
   of.seen = of.along = evidence.largest;

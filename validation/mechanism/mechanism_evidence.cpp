@@ -176,7 +176,8 @@ void measureMotion(const MechanismSample& sample, const MotorMotion& moved, Mech
   motion.solver().moveTo(moved.q, pose);
   MotorEfforts change = (motion.solver().inverseDynamics(moved, pose, work) - sample.noc).cwiseAbs();
   const double duration = motion.trajectory().duration();
-  const double later = sample.motion.t < duration / 2 ? sample.motion.t + rounding * duration : sample.motion.t - rounding * duration;
+  const double later =
+      sample.motion.t < duration / 2 ? sample.motion.t + rounding * duration : sample.motion.t - rounding * duration;
   change += (motion.inverseDynamics(later, work) - sample.noc).cwiseAbs();
   for (Eigen::Index k = 0; k < change.size(); ++k)
     if (const double shape = evidence.shape(sample, k); shape > 0)

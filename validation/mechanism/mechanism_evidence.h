@@ -107,7 +107,7 @@ struct MechanismEvidence {
   std::vector<MechanismWindow> windows;
   MotorEfforts efforts_in;  ///< what turns each motor's effort into the shown unit: 1, or the length if motors differ
   double level = 25;        ///< units of rounding that add up from the base to an effort
-  double motion_level = 0;        ///< that of the NOC's efforts, if motion and time change by one rounding, measured
+  double motion_level = 0;  ///< that of the NOC's efforts, if motion and time change by one rounding, measured
   double acceleration_level = 0;  ///< that of Simbody's accelerations under efforts, measured
   double largest = 0;             ///< effort along the motion, in the shown unit
   std::string unit;               ///< "N m", or "N" if all motors slide

@@ -109,7 +109,8 @@ void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const
     const MechanismSample& sample = sampleAt(evidence, window.end);
     MotorEfforts noise(mechanism.motorCount());
     for (Eigen::Index k = 0; k < noise.size(); ++k)
-      noise(k) = ((k % 2 == 0) ? 1 : -1) * evidence.limit(sample, k, evidence.acceleration_level) / evidence.efforts_in(k);
+      noise(k) =
+          ((k % 2 == 0) ? 1 : -1) * evidence.limit(sample, k, evidence.acceleration_level) / evidence.efforts_in(k);
     const MotorEfforts none = MotorEfforts::Zero(noise.size());
     const End coarse = replayer.run(start, window.end, steps, none),
               fine = replayer.run(start, window.end, 2 * steps, none);

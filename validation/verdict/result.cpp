@@ -133,10 +133,10 @@ constexpr double most_coarse = 0.1;
 
 Check tooCoarse(const CheckedQuantity& quantity, const JudgedValue& shown, const WorstShare& worst, std::string basis,
                 const std::string& why) {
-  Check out = notJudgeable(
-      Reason::not_covered, quantity.name, shown.value, shown.limit, quantity.unit, std::move(basis),
-      fmt::format("{}; the printed digits leave {:.2g} of the largest value open, expected more digits", why,
-                  quantity.given / quantity.size));
+  Check out =
+      notJudgeable(Reason::not_covered, quantity.name, shown.value, shown.limit, quantity.unit, std::move(basis),
+                   fmt::format("{}; the printed digits leave {:.2g} of the largest value open, expected more digits",
+                               why, quantity.given / quantity.size));
   out.missed = quantity.given / quantity.size;
   out.largest = {worst.largest, worst.largest_t, ""};
   return out;

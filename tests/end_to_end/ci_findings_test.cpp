@@ -1,0 +1,94 @@
+// What CI reads: annotations of GitHub, SARIF, what changed since an earlier run, and efforts that lie beside
+// scenarios.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/csv.h"
+#include "tests/end_to_end/program.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// A four-bar with its efforts times a factor, in a file beside it.
+class CiFindings : public testing::Test {
+ protected:
+  CiFindings() {
+    std::filesystem::create_directories(ursula_.folder() / "suite");
+    for (const std::string file : {"fourbar.toml", "fourbar.xml"})
+      ursula_.write("suite/" + file, TemporaryFolder::read(std::string(URSULA_VECTORS "/loops/") + file));
+    EXPECT_EQ(ursula_("inverse suite/fourbar.toml --samples 51 --out motion.csv").exit_code, 0);
+  }
+  void writeEfforts(const std::string& file, double factor) const {
+    const CsvTable motion = readCsv(ursula_.folder() / "motion.csv");
+    std::vector<double> efforts = motion.at("tau_1_Nm");
+    for (double& each : efforts) each *= factor;
+    ursula_.write(file, csvText({"t_s", "tau_1_Nm"}, {motion.at("t_s"), efforts}));
+  }
+  const Program ursula_;
+};
+
+TEST_F(CiFindings, areAnnotationsOfGitHub) {
+  writeEfforts("wrong.csv", 1.01);
+  const auto wrong = ursula_("validate suite/fourbar.toml --torques wrong.csv --format github --out o");
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_THAT(wrong.out, StartsWith("::error file=suite/fourbar.toml,line=1,col=1,title=ursula%3A fail::fourbar: "));
+  EXPECT_THAT(wrong.out, HasSubstr("1 %25"));
+  EXPECT_EQ(std::count(wrong.out.begin(), wrong.out.end(), '\n'), 1) << "one line for a scenario";
+  const auto right = ursula_("validate suite/fourbar.toml --format github --out o");
+  EXPECT_EQ(right.exit_code, 0);
+  EXPECT_THAT(right.out, StartsWith("::notice file=suite/fourbar.toml"));
+}
+
+TEST_F(CiFindings, areSarif) {
+  writeEfforts("wrong.csv", 1.01);
+  const auto run = ursula_("validate suite/fourbar.toml --torques wrong.csv --format sarif --out o");
+  const nlohmann::json log = nlohmann::json::parse(run.out);
+  EXPECT_EQ(log["version"], "2.1.0");
+  const auto& results = log["runs"][0]["results"];
+  ASSERT_FALSE(results.empty());
+  EXPECT_EQ(results[0]["level"], "error");
+  EXPECT_EQ(results[0]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"], "suite/fourbar.toml");
+  const auto passed = ursula_("validate suite/fourbar.toml --format sarif --out o");
+  EXPECT_TRUE(nlohmann::json::parse(passed.out)["runs"][0]["results"].empty());
+}
+
+TEST_F(CiFindings, placeBadScenarios) {
+  ursula_.write("suite/bad.toml", "name = \"bad\"\n[mechanism]\nfile = 7\n");
+  const auto run = ursula_("validate suite --format github --out o");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.out, HasSubstr("::error file=suite/bad.toml,line=3,col="));
+  EXPECT_THAT(run.out, HasSubstr("::notice file=suite/fourbar.toml"));
+}
+
+TEST_F(CiFindings, sayWhatChangedSinceAnEarlierRun) {
+  writeEfforts("wrong.csv", 1.01);
+  EXPECT_EQ(ursula_("validate suite/fourbar.toml --out old --quiet").exit_code, 0);
+  const auto same = ursula_("validate suite/fourbar.toml --out new --against old --quiet");
+  EXPECT_THAT(same.out, HasSubstr("fourbar, since old:\n  nothing changed\n"));
+  const auto run = ursula_("validate suite/fourbar.toml --torques wrong.csv --out new --against old --quiet");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.out, HasSubstr("  verdict: pass before, fail now\n"));
+  EXPECT_THAT(run.out, HasSubstr("  torque.pointwise: pass before, fail now\n"));
+  const auto none = ursula_("validate suite/fourbar.toml --out new --against nowhere --quiet");
+  EXPECT_THAT(none.out, HasSubstr("no earlier summary.json to compare with"));
+}
+
+TEST_F(CiFindings, judgeEffortsBesideAScenario) {
+  writeEfforts("suite/fourbar.csv", 1);
+  EXPECT_EQ(ursula_("validate suite --out o --quiet").exit_code, 0);
+  writeEfforts("suite/fourbar.csv", 1.01);
+  const auto wrong = ursula_("validate suite --out o --quiet");
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_THAT(wrong.out, HasSubstr("torque.against_noc"));
+  const auto alone = ursula_("validate suite/fourbar.toml --out o --quiet");
+  EXPECT_EQ(alone.exit_code, 0) << "a file that is named alone is judged alone";
+}
+
+}  // namespace
+}  // namespace ursula
