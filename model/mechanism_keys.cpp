@@ -53,7 +53,6 @@ ScenarioKey kind() {
 ScenarioKey duration() { return {"duration", KeyType::number, "s", required_key, "t_f", above_zero}; }
 
 std::vector<ScenarioTable> motions() {
-  const KeyBound any;
   return {
       {"trajectory", "[trajectory]", "Its other keys depend on `kind`, see below.", {kind()}},
       {"trajectory.fourier",
