@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "parts/engines/mujoco/mujoco_loop.h"
 #include "parts/engines/mujoco/mujoco_reading.h"
 #include "parts/engines/voting_engines.h"
 #include "validation/mechanism/validate_mechanism.h"
