@@ -205,10 +205,6 @@ void measureLevels(SimbodyMechanism& simbody, MechanismEvidence& evidence) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// The largest change of the efforts within a time of an instant, as rounded stamps of time leave it open.
 MotorEfforts changeWithin(const LoopMotion& motion, double t, double time, const MotorEfforts& at) {
   MotorEfforts out = MotorEfforts::Zero(at.size());
@@ -219,6 +215,66 @@ MotorEfforts changeWithin(const LoopMotion& motion, double t, double time, const
     out = out.cwiseMax((motion.inverseDynamics(inside, work) - at).cwiseAbs()).eval();
   }
   return out;
+}
+
+/// Whether each body is idle: how far it has turned about its own line is anybody's choice.
+std::vector<char> idleBodies(const LoopSolver& solver) {
+  const auto& bodies = solver.mechanism().bodies();
+  const std::vector<std::string> spinning = solver.freedoms(solver.assembled()).idle;
+  std::vector<char> out(bodies.size(), 0);
+  for (std::size_t b = 0; b < out.size(); ++b)
+    out[b] = std::find(spinning.begin(), spinning.end(), bodies[b].name) != spinning.end() ? 1 : 0;
+  return out;
+}
+
+/// Returns the sample's part that every judged instant has; `work` is then at that instant.
+MechanismSample nocAt(const LoopMotion& motion, double t, LoopWork& work) {
+  MechanismSample out;
+  out.motion = motion.trajectory().at(t);
+  out.noc = motion.inverseDynamics(t, work);
+  out.scale = motion.solver().effortScale(work);
+  out.condition = 1 / work.reciprocal_condition;
+  return out;
+}
+
+/// Adds what Simbody, the other engines and direct dynamics say of a sample; `work` is at its instant.
+void addEngines(const std::vector<char>& idle, bool direct, LoopWork& work, SimbodyMechanism& simbody,
+                const MechanismEvidence& evidence, MechanismSample& sample) {
+  const Mechanism& mechanism = *evidence.scenario->mechanism;
+  const LoopSolver& solver = evidence.motion->solver();
+  sample.output = work.bodies[mechanism.output()].displacement * mechanism.bodies()[mechanism.output()].frame;
+  simbody.place(sample.motion);
+  compareBodies(simbody, work, mechanism.length(), idle, sample);
+  for (const MechanismEngine& engine : evidence.engines) sample.engines.push_back(engine.efforts(sample.motion));
+  sample.acceleration = simbody.accelerations(sample.subject);
+  sample.inverse_inertia = solver.inertia(work).inverse();
+  sample.across = acrossOf(mechanism, work);
+  sample.rank = rankOfShaping(work, mechanism.length());
+  if (direct) sample.direct = solver.directDynamics(sample.motion, sample.noc, work.pose, work);
+}
+
+/// Asks the subject, or Simbody if the subject is the NOC, between the samples.
+void askBetween(const MechanismSubject& subject, const Deadline& deadline, MechanismEvidence& out) {
+  constexpr int count = 600;
+  const LoopMotion& motion = *out.motion;
+  const std::vector<double> dense = goldenInstants(motion.trajectory().duration(), count);
+  std::vector<MotorEfforts> answers;
+  if (subject.answers) answers = answersOf(subject, motion, dense, deadline);
+  SimbodyMechanism simbody(*out.scenario->mechanism);
+  LoopWork work;
+  for (std::size_t i = 0; i < dense.size(); ++i) {
+    deadline.require();
+    MechanismSample sample = nocAt(motion, dense[i], work);
+    if (!subject.answers) simbody.place(sample.motion);
+    sample.subject = subject.answers ? answers[i] : MotorEfforts(simbody.inverseDynamics());
+    out.between.push_back(std::move(sample));
+  }
+}
+
+void setCover(const std::vector<double>& instants, double duration, MechanismEvidence& out) {
+  for (std::size_t i = 1; i < instants.size(); ++i)
+    out.widest_gap = std::max(out.widest_gap, instants[i] - instants[i - 1]);
+  out.covers = !instants.empty() && instants.front() <= 1e-9 * duration && instants.back() >= duration * (1 - 1e-9);
 }
 
 }  // namespace
@@ -233,68 +289,28 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
   setUnits(mechanism, out);
   // Independent roundings grow as 4 root n: Higham and Mary 2019, as in Conditioning; n counts the steps of two trees.
   out.level = 4 * std::sqrt(12.0 * static_cast<double>(mechanism.bodies().size() + mechanism.joints().size()));
-  const LoopSolver& solver = motion.solver();
   const std::vector<double> instants = judgedInstants(scenario, subject);
   std::vector<MotorEfforts> answers;
   if (subject.answers) answers = answersOf(subject, motion, instants, deadline);
   SimbodyMechanism simbody(mechanism);
   for (const MakeMechanismEngine& make : makers)
     if (auto engine = make(scenario)) out.engines.push_back(std::move(*engine));
-  // How far an idle body has turned about its own line is anybody's choice.
-  std::vector<char> idle(mechanism.bodies().size(), 0);
-  const std::vector<std::string> spinning = solver.freedoms(solver.assembled()).idle;
-  for (std::size_t b = 0; b < idle.size(); ++b)
-    idle[b] = std::find(spinning.begin(), spinning.end(), mechanism.bodies()[b].name) != spinning.end() ? 1 : 0;
+  const std::vector<char> idle = idleBodies(motion.solver());
   LoopWork work;
   for (std::size_t i = 0; i < instants.size(); ++i) {
     deadline.require();
     if (progress) progress(static_cast<double>(i) / static_cast<double>(instants.size()));
-    MechanismSample sample;
-    sample.motion = motion.trajectory().at(instants[i]);
-    sample.noc = motion.inverseDynamics(instants[i], work);
+    MechanismSample sample = nocAt(motion, instants[i], work);
     sample.subject = subject.given ? subject.given->efforts[i] : subject.answers ? answers[i] : sample.noc;
     sample.given = subject.given ? subject.given->precision[i] : MotorEfforts::Zero(sample.noc.size());
-    sample.scale = solver.effortScale(work);
-    sample.condition = 1 / work.reciprocal_condition;
     if (subject.given && !subject.given->time_precision.empty())
       sample.given += changeWithin(motion, instants[i], subject.given->time_precision[i], sample.noc);
-    sample.output = work.bodies[mechanism.output()].displacement * mechanism.bodies()[mechanism.output()].frame;
-    simbody.place(sample.motion);
-    compareBodies(simbody, work, mechanism.length(), idle, sample);
-    for (const MechanismEngine& engine : out.engines) sample.engines.push_back(engine.efforts(sample.motion));
-    sample.acceleration = simbody.accelerations(sample.subject);
-    sample.inverse_inertia = solver.inertia(work).inverse();
-    sample.across = acrossOf(mechanism, work);
-    sample.rank = rankOfShaping(work, mechanism.length());
-    if (subject.isNoc()) sample.direct = solver.directDynamics(sample.motion, sample.noc, work.pose, work);
+    addEngines(idle, subject.isNoc(), work, simbody, out, sample);
     out.largest = std::max(out.largest, sample.noc.cwiseProduct(out.efforts_in).cwiseAbs().maxCoeff());
     out.samples.push_back(std::move(sample));
   }
-  const double duration = motion.trajectory().duration();
-  for (std::size_t i = 1; i < instants.size(); ++i)
-    out.widest_gap = std::max(out.widest_gap, instants[i] - instants[i - 1]);
-  out.covers = !instants.empty() && instants.front() <= 1e-9 * duration && instants.back() >= duration * (1 - 1e-9);
-  if (!subject.given) {
-    constexpr int count = 600;
-    const std::vector<double> dense = goldenInstants(duration, count);
-    if (subject.answers) answers = answersOf(subject, motion, dense, deadline);
-    SimbodyMechanism other(mechanism);
-    for (std::size_t i = 0; i < dense.size(); ++i) {
-      deadline.require();
-      MechanismSample sample;
-      sample.motion = motion.trajectory().at(dense[i]);
-      sample.noc = motion.inverseDynamics(dense[i], work);
-      if (subject.answers) {
-        sample.subject = answers[i];
-      } else {
-        other.place(sample.motion);
-        sample.subject = other.inverseDynamics();
-      }
-      sample.scale = solver.effortScale(work);
-      sample.condition = 1 / work.reciprocal_condition;
-      out.between.push_back(std::move(sample));
-    }
-  }
+  setCover(instants, motion.trajectory().duration(), out);
+  if (!subject.given) askBetween(subject, deadline, out);
   measureLevels(simbody, out);
   if (subject.isNoc()) out.invariances = askInvariances(scenario, motion);
   return out;
