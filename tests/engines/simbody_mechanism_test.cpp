@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/csv.h"
-#include "parts/exchange/import.h"
+#include "tests/engines/loop_rows.h"
 
 namespace ursula {
 namespace {
@@ -21,32 +21,6 @@ using Tree = SimbodyMechanism::Tree;
 
 /// Rounding in some 50 coordinates, times a condition number below 1e2 of these machines.
 constexpr double room = 1e-12;
-
-MechanismParameters parametersOf(const std::string& name) {
-  return exchange::readModel(std::string(URSULA_VECTORS) + "/loops/" + name + ".xml");
-}
-
-/// One row of NAME.csv.
-struct LoopRow {
-  MotorMotion motion;
-  Eigen::VectorXd efforts;
-};
-
-std::vector<LoopRow> rowsOf(const std::string& name, std::size_t motors) {
-  const CsvTable table = readCsv(std::string(URSULA_VECTORS) + "/loops/" + name + ".csv");
-  std::vector<LoopRow> out(table.rows());
-  for (std::size_t row = 0; row < out.size(); ++row) {
-    const auto read = [&](const char* what, const char* unit) {
-      Eigen::VectorXd numbers(static_cast<Eigen::Index>(motors));
-      for (std::size_t k = 0; k < motors; ++k)
-        numbers(static_cast<Eigen::Index>(k)) = table.at(what + std::to_string(k + 1) + unit)[row];
-      return numbers;
-    };
-    out[row].motion = {table.at("t_s")[row], read("q_", "_rad"), read("qdot_", "_rad_s"), read("qddot_", "_rad_s2")};
-    out[row].efforts = read("tau_", "_Nm");
-  }
-  return out;
-}
 
 double largestEffort(const std::vector<LoopRow>& rows) {
   double out = 0;
@@ -66,8 +40,8 @@ double effortError(const Mechanism& mechanism, Tree tree, const std::vector<Loop
 
 class LoopOfFile : public testing::TestWithParam<std::string> {
  protected:
-  Mechanism mechanism_{parametersOf(GetParam())};
-  std::vector<LoopRow> rows_ = rowsOf(GetParam(), mechanism_.motorCount());
+  Mechanism mechanism_{loopMachine(GetParam())};
+  std::vector<LoopRow> rows_ = loopRows(GetParam(), mechanism_.motorCount());
 };
 
 constexpr Tree trees[] = {Tree::other, Tree::of_file};
@@ -138,8 +112,8 @@ INSTANTIATE_TEST_SUITE_P(Files, LoopOfFile, testing::Values("fourbar", "planar3r
 /// Hinges close a planar loop with three equations too many, and change nothing.
 TEST(LoopsOfFiles, areTheSameIfHingesCloseAPlanarLoop) {
   for (const char* name : {"fourbar", "planar3rrr"}) {
-    MechanismParameters machine = parametersOf(name);
-    const std::vector<LoopRow> rows = rowsOf(name, machine.motors.size());
+    MechanismParameters machine = loopMachine(name);
+    const std::vector<LoopRow> rows = loopRows(name, machine.motors.size());
     for (MechanismJoint& joint : machine.joints)
       if (joint.closure) {
         joint.kind = JointKind::revolute;

@@ -13,6 +13,8 @@
 
 namespace ursula {
 
+class SimbodyMechanism;
+
 /// The relative rounding of a double.
 constexpr double rounding = std::numeric_limits<double>::epsilon();
 
@@ -131,6 +133,9 @@ struct MechanismEvidence {
 MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopMotion& motion,
                                   const MechanismSubject& subject, const std::vector<MakeMechanismEngine>& makers,
                                   const Deadline& deadline, const std::function<void(double share)>& progress);
+
+/// Sets the levels: how efforts and accelerations change if their inputs change by one rounding.
+void measureLevels(SimbodyMechanism& simbody, MechanismEvidence& evidence);
 
 /// Runs the replays; `efforts` are those of the subject at any instant.
 void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const Deadline& deadline,
