@@ -66,13 +66,17 @@ void requireInertia(const std::string& place, const Matrix3d& inertia, int line 
         fmt::format("the largest principal moment <= the sum of the others, {}", computed(sum, moments(2))));
 }
 
+/// A link without mass has no inertia either, and no mass centre that matters.
 void requireLink(const std::string& place, const Link& link, int line) {
-  requirePositive(place + ".mass", link.mass);
+  requireNotNegative(place + ".mass", link.mass);
   requireFinite(place + ".center_of_mass", link.center_of_mass);
   requireFinite(place + ".center_of_mass", link.off_line);
   if (link.off_line(line) != 0)
     throw InvalidParameter(place + ".center_of_mass", text(link.off_line), "an offset across the link's line");
-  requireInertia(place + ".inertia", link.inertia, line);
+  if (link.mass > 0)
+    requireInertia(place + ".inertia", link.inertia, line);
+  else if (!link.inertia.isZero(0))
+    throw InvalidParameter(place + ".inertia", text(link.inertia.diagonal()), "zero, as the link's mass is 0");
 }
 
 void requireNoneNegative(const std::string& place, const JointFriction& friction) {

@@ -17,6 +17,10 @@ ScenarioTable manipulator() {
           "[manipulator]",
           "",
           {{"gravity", KeyType::vector, "m/s²", "[0.0, 0.0, -9.81]", "g, in B"},
+           choiceKey("legs", "\"with_mass\"",
+                     "`massless` takes all links without mass and inertia, whatever their tables say: the platform's "
+                     "dynamics alone",
+                     {"with_mass", "massless"}),
            tableKey("platform", required_key, "the platform with all that it carries", "manipulator.platform"),
            tableKey("leg_defaults", no_default, "what all legs share; takes every key of a leg", "manipulator.leg"),
            tableKey("leg", required_key, "three to six, in leg order", "manipulator.leg", KeyType::tables)}};
@@ -76,7 +80,7 @@ ScenarioTable link() {
           {{"length", KeyType::number, "m", required_key,
             "l of the proximal, s of the distal link; of the carriage of PUS for drawing only, and not required",
             above_zero},
-           {"mass", KeyType::number, "kg", required_key, "", above_zero},
+           {"mass", KeyType::number, "kg", required_key, "0 of a link without mass, whose inertia is zero", not_negative},
            {"center_of_mass", KeyType::center, "m", required_key,
             "distance along the link from its first end, of a rod of UPS from the end within the cylinder; or from "
             "there `[x, y, z]` in the link's frame (of a carriage of PUS [x̂, û, ẑ])"},

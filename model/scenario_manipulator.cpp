@@ -45,7 +45,8 @@ std::string drivenBy(const Leg& leg) {
 /// Reads one leg from its tables: the defaults first, then its own.
 class LegReader {
  public:
-  LegReader(std::optional<TomlSection> defaults, const TomlSection& own) : defaults_(std::move(defaults)), own_(own) {}
+  LegReader(std::optional<TomlSection> defaults, const TomlSection& own, bool massless)
+      : defaults_(std::move(defaults)), own_(own), massless_(massless) {}
 
   /// Throws at the leg's table for the first required key that neither table gave.
   Leg read() {
@@ -63,6 +64,8 @@ class LegReader {
       if (const auto rotors = table->section("rotor_inertia")) readRotors(*rotors, table == &own_);
     }
     requireAll();
+    if (massless_)
+      for (Link* link : {&leg_.proximal, &leg_.distal}) *link = Link{link->length};
     return leg_;
   }
 
@@ -169,6 +172,7 @@ class LegReader {
     require({"base_point", "base_axis", "platform_point"}, "an array of 3 numbers");
     for (const std::string link : {"proximal", "distal"}) {
       if (!rowOf(leg_.kind).hasCarriage() || link == "distal") require({link + ".length"}, "a number");
+      if (massless_) continue;
       require({link + ".mass", link + ".center_of_mass"}, "a number");
       require({link + ".inertia"}, "an array of 3 or 6 numbers");
     }
@@ -181,6 +185,7 @@ class LegReader {
 
   std::optional<TomlSection> defaults_;
   const TomlSection& own_;
+  bool massless_;
   const ScenarioTable& keys_ = scenarioTable("manipulator.leg");
   Leg leg_;
   std::set<std::string> given_;
@@ -242,8 +247,9 @@ ManipulatorParameters readManipulator(const TomlSection& manipulator) {
   const std::optional<TomlSection> defaults = manipulator.section("leg_defaults");
   const std::vector<TomlSection> legs = manipulator.sections("leg");
   requireLegs(manipulator, legs);
+  const bool massless = manipulator.readChoice(scenarioTable("manipulator").key("legs")) == 1U;
   parameters.legs.clear();
-  for (const TomlSection& leg : legs) parameters.legs.push_back(LegReader(defaults, leg).read());
+  for (const TomlSection& leg : legs) parameters.legs.push_back(LegReader(defaults, leg, massless).read());
   requireUse(defaults, parameters.legs);
   requireRotorUse(defaults, parameters.legs);
   return parameters;

@@ -125,10 +125,14 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Machine, RefusedScenario,
-    testing::Values(Refusal{"inherited", "length = 1.4, mass = 10.0", "length = 1.4, mass = @0",
-                            "manipulator.leg_defaults.proximal.mass (of leg 1): 0, expected > 0"},
+    testing::Values(Refusal{"inherited", "length = 1.4, mass = 10.0", "length = 1.4, mass = @-10.0",
+                            "manipulator.leg_defaults.proximal.mass (of leg 1): -10, expected >= 0"},
+                    Refusal{"without_mass", "mass = 10.0, center_of_mass = 0.7, inertia = ",
+                            "mass = 0, center_of_mass = 0.7, inertia = @",
+                            "manipulator.leg_defaults.proximal.inertia (of leg 1): [4.2, 4.2, 0.015], expected zero, "
+                            "as the link's mass is 0"},
                     Refusal{"own", "[-0.0667, -1.3847, 0.0]", "[-0.0667, -1.3847, 0.0]\ndistal = { mass = @-1 }",
-                            "manipulator.leg[1].distal.mass: -1, expected > 0"},
+                            "manipulator.leg[1].distal.mass: -1, expected >= 0"},
                     Refusal{"axis", "[0.9397, 0.0, 0.3420]", "@[0, 0, 0]",
                             "manipulator.leg[2].base_axis: [0, 0, 0], expected a vector that is not zero"},
                     Refusal{"triangle", "[800.0, 810.0, 820.0]", "@[800, 10, 820]",

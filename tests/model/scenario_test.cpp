@@ -56,6 +56,18 @@ TEST(Scenario, hasDefaults) {
   EXPECT_TRUE(scenario.acceptance.empty());
 }
 
+/// Whatever the links' tables say, and also if they say nothing.
+TEST(Scenario, hasLegsWithoutMass) {
+  for (const char* with : {"length = 1.4", "length = 1.4, mass = 10.0"}) {
+    const std::string text = replaced(good_scenario, "[manipulator]\n", "[manipulator]\nlegs = \"massless\"\n");
+    const std::string numbers = "length = 1.4, mass = 10.0, center_of_mass = 0.7, inertia = [4.2, 4.2, 0.015]";
+    for (const Leg& leg : parseScenario(replaced(text, numbers, with), "a.toml").manipulator->parameters().legs) {
+      EXPECT_THAT(leg.proximal, FieldsAre(1.4, 0, 0, Matrix3d::Zero(), Vector3d::Zero()));
+      EXPECT_THAT(leg.distal, FieldsAre(1.3, 0, 0, Matrix3d::Zero(), Vector3d::Zero()));
+    }
+  }
+}
+
 TEST(Scenario, readsGravityAndTensorsOfSixNumbers) {
   EXPECT_EQ(parsed("[manipulator]\n", "[manipulator]\ngravity = [1, 2, -1.62]\n").manipulator->gravity(),
             Vector3d(1, 2, -1.62));

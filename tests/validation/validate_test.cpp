@@ -86,6 +86,19 @@ TEST_P(Validate, theSolverPasses) {
 INSTANTIATE_TEST_SUITE_P(Machines, Validate, testing::ValuesIn(vectorNames()),
                          [](const auto& name) { return "of_" + std::string(1, name.param.back()); });
 
+/// Simbody's own forward dynamics has no answer there, and nothing else may miss.
+TEST(ValidateResult, legsWithoutMassAreJudgedInFull) {
+  Scenario massless = helix();
+  ManipulatorParameters parameters = massless.manipulator->parameters();
+  for (Leg& leg : parameters.legs)
+    for (Link* link : {&leg.proximal, &leg.distal}) *link = Link{link->length};
+  massless.manipulator = std::make_shared<Manipulator>(parameters);
+  const ValidationResult right = validate(massless, solverOf(massless), {});
+  EXPECT_EQ(others(right.checks, Verdict::pass), "");
+  EXPECT_EQ(verdictOf(right.checks, "integration.second"), "not_applicable");
+  EXPECT_EQ(validate(massless, solverOf(helix()), without_extras).verdict, Verdict::fail);
+}
+
 TEST(ValidateResult, carriesSeriesAndProvenance) {
   const ValidationResult result = validate(helix(), solverOf(helix()), onHelix());
   EXPECT_EQ(result.timeseries.rows(), 21u);
