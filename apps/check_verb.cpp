@@ -62,6 +62,7 @@ void addCheck(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* verb =
       app.add_subcommand("check", "Reads a scenario and tries its motion: reports errors, and warns of odd values");
+  verb->group(preparing)->footer("Example: ursula check my.toml --picture my.svg");
   verb->add_option("scenarios", options->scenarios, "Scenario files (TOML), - for standard input")->required();
   verb->add_option("--picture", options->picture,
                    "Draws the machine at the start of the motion, even if it is out of reach: SVG or PNG file; - for "

@@ -21,6 +21,7 @@ void addExplain(CLI::App& app, std::function<int()>& run) {
   const auto check = std::make_shared<std::string>();
   CLI::App* verb = app.add_subcommand(
       "explain", "Explains what a check proves, where its limit comes from and what to do when it fails");
+  verb->group(reading)->footer("Example: ursula explain torque.pointwise");
   verb->add_option("check", *check, "Name of a check, such as torque.pointwise; without it all are listed");
   verb->callback([check, &run] {
     run = [check] {

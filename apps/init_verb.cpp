@@ -60,6 +60,7 @@ int init(const InitOptions& options) {
 void addInit(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<InitOptions>();
   CLI::App* verb = app.add_subcommand("init", "Writes a commented scenario to start from; never overwrites");
+  verb->group(preparing)->footer("Example: ursula init my.toml --kind UPS");
   verb->add_option("file", options->file, "New scenario file (TOML); - for standard output")->required();
   std::string kinds;
   for (const LegKindRow& row : leg_kinds)

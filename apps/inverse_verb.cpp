@@ -46,6 +46,7 @@ void addInverse(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<InverseOptions>();
   CLI::App* verb =
       app.add_subcommand("inverse", "Writes motion, joint variables and efforts along the trajectory, as CSV");
+  verb->group(computing)->footer("Example: ursula inverse my.toml --samples 1001 --out efforts.csv");
   verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
   verb->add_option("--samples", options->samples, "Equally spaced instants from 0 to t_f")
       ->check(CLI::Range(2, 1000000000))

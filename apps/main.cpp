@@ -45,7 +45,8 @@ int runVerb(const CLI::App& app, const std::function<int()>& run) {
 }
 
 int runProgram(int argc, char** argv) {
-  CLI::App app("ursula: validates the closed-form dynamics of six-dof parallel manipulators", "ursula");
+  CLI::App app("ursula: judges the dynamics of machines with closed loops: hexapods, four-bars, legs, deltas",
+               "ursula");
   app.set_version_flag("--version", ursula::buildProvenance().version + " (" + ursula::buildProvenance().commit + ")");
   app.require_subcommand(1);
   std::function<int()> run;

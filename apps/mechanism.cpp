@@ -9,34 +9,17 @@
 #include "apps/files_apart.h"
 #include "apps/output.h"
 #include "apps/suite/no_model.h"
+#include "apps/validate_options.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
 #include "base/text.h"
 #include "model/instants.h"
 #include "model/scenario_files.h"
+#include "model/torque_names.h"
 #include "report/page/scenario_picture.h"
 #include "validation/mechanism/validate_mechanism.h"
 
 namespace ursula {
-std::vector<std::pair<std::string, std::string>> effortColumns(const std::vector<std::string>& texts,
-                                                               const Mechanism& mechanism) {
-  std::vector<std::string> known = {"t_s"};
-  for (std::size_t k = 0; k < mechanism.motorCount(); ++k) known.push_back(motorColumn(mechanism, k, "tau"));
-  std::vector<std::pair<std::string, std::string>> out;
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals + 1 == text.size())
-      throw UsageError(fmt::format("--map {}: expected NAME=COLUMN, as in {}=tau1", shown(text), known[1]));
-    const std::string name = text.substr(0, equals);
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw UsageError(
-          fmt::format("--map {}: '{}' is no column of this mechanism's efforts, expected t_s or {} to {}{}",
-                      shown(text), shown(name), known[1], known.back(), didYouMean(name, known)));
-    out.emplace_back(name, text.substr(equals + 1));
-  }
-  return out;
-}
-
 AnyScenario readAny(const std::string& file, std::initializer_list<std::string> written) {
   const std::string text = scenarioNotModel(file);
   const std::filesystem::path name = namedInput(file);
@@ -129,12 +112,20 @@ ValidationResult judgeMechanism(const MechanismScenario& scenario, const std::st
     if (!solver.command.empty()) return validateExternalSolver(scenario, solver, options);
     MechanismSubject subject;
     if (!torques.empty()) {
-      subject.given = std::make_shared<const GivenEfforts>(readMotorEfforts(
-          torques, *scenario.mechanism, scenario.trajectory->duration(), effortColumns(map, *scenario.mechanism)));
+      subject.given = std::make_shared<const GivenEfforts>(readEffortsAloud(torques, map, scenario));
       subject.about = {subject.given->name, Formulation::external, CalledBy::torques};
     }
     return validateMechanism(scenario, subject, options);
   });
+}
+
+GivenEfforts readEffortsAloud(const std::string& file, const std::vector<std::string>& map,
+                              const MechanismScenario& scenario) {
+  const Mechanism& mechanism = *scenario.mechanism;
+  GivenEfforts given =
+      readMotorEfforts(file, mechanism, scenario.trajectory->duration(), parseColumnMap(map, mechanism));
+  sayHowRead(file, given.read_as, given.ignored, targetNames(mechanism));
+  return given;
 }
 
 }  // namespace ursula

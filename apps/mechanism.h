@@ -35,9 +35,9 @@ auto alongLoops(const MechanismScenario& scenario, const Run& run) {
   }
 }
 
-/// Splits each NAME=COLUMN of `--map`, where NAME is t_s or an effort's column by the contract.
-std::vector<std::pair<std::string, std::string>> effortColumns(const std::vector<std::string>& texts,
-                                                               const Mechanism& mechanism);
+/// Reads a file of efforts, with `map` as for readTorquesAloud(), and says on standard error how its columns were read.
+GivenEfforts readEffortsAloud(const std::string& file, const std::vector<std::string>& map,
+                              const MechanismScenario& scenario);
 
 /// Writes motion, efforts and joints at equally spaced instants, as CSV.
 int inverseOfMechanism(const MechanismScenario& scenario, int samples, const std::string& out);

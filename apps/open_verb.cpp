@@ -83,8 +83,11 @@ int openResults(const std::string& folder) {
 void addOpen(CLI::App& app, std::function<int()>& run) {
   const auto folder = std::make_shared<std::string>();
   CLI::App* verb = app.add_subcommand("open", "Shows the report of a results folder in the browser");
+  verb->group(reading);
   verb->add_option("folder", *folder, "Folder with report.html, or with index.html if it holds a suite")->required();
-  verb->footer("Prints the page's path and starts $BROWSER, else xdg-open, without waiting for it.");
+  verb->footer(
+      "Example: ursula open results/my\n"
+      "Prints the page's path and starts $BROWSER, else xdg-open, without waiting for it.");
   verb->callback([folder, &run] { run = [folder] { return openResults(*folder); }; });
 }
 

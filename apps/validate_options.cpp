@@ -30,11 +30,17 @@ void addMapOption(CLI::App& verb, std::vector<std::string>& map) {
 
 TorqueFile readTorquesAloud(const std::string& file, const std::vector<std::string>& map, const Motors& motors) {
   const TorqueFile torques = readTorqueFile(file, parseColumnMap(map, motors), motors);
-  if (!torques.read_as.empty()) say("{}: read as: {}\n", shownPath(file), torques.read_as);
-  if (!torques.ignored.empty())
-    say("{}: columns other than t_s, {} … {} are ignored: {}\n", shownPath(file), effortColumn(motors, 0),
-        effortColumn(motors, motor_count - 1), shown(fmt::format("{}", fmt::join(torques.ignored, ", ")), 400));
+  sayHowRead(file, torques.read_as, torques.ignored, targetNames(motors));
   return torques;
+}
+
+void sayHowRead(const std::string& file, const std::string& read_as, const std::vector<std::string>& ignored,
+                const std::vector<std::string>& wanted) {
+  if (!read_as.empty()) say("{}: read as: {}\n", shownPath(file), read_as);
+  if (ignored.empty()) return;
+  const std::string motors = wanted.size() > 2 ? fmt::format("{} … {}", wanted[1], wanted.back()) : wanted.back();
+  say("{}: columns other than t_s, {} are ignored: {}\n", shownPath(file), motors,
+      shown(fmt::format("{}", fmt::join(ignored, ", ")), 400));
 }
 
 namespace {
@@ -49,6 +55,14 @@ std::string summaryOf(const SuiteEntry& entry, const std::filesystem::path& dir)
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
+/// What to do with that result.
+std::string nextText(const ValidationResult& result, const std::filesystem::path& dir) {
+  const Check* worst = worstCheck(result.checks);
+  if (worst == nullptr || result.verdict == Verdict::pass)
+    return fmt::format("next: ursula open {}\n", shellWord(dir.string()));
+  return fmt::format("next: ursula open {}, or ursula explain {}\n", shellWord(dir.string()), worst->name);
+}
+
 }  // namespace
 
 void printResult(const ValidationResult& result, const std::filesystem::path& dir, PrintedForm form) {
@@ -60,14 +74,17 @@ void printResult(const ValidationResult& result, const std::filesystem::path& di
     case PrintedForm::verdict:
       out = report::quietText(result, coloured());
       break;
+    case PrintedForm::groups:
     case PrintedForm::table:
-      out = report::validationText(result, coloured()) + "report: " + (dir / "report.html").string() + "\n";
+      out = report::validationText(result, coloured(), form == PrintedForm::table) +
+            "report: " + (dir / "report.html").string() + "\n" + nextText(result, dir);
   }
   writeOutput("-", out);
 }
 
 void printSuite(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir, PrintedForm form) {
-  if (form == PrintedForm::table) return writeOutput("-", report::suiteText(entries, dir, coloured()));
+  if (form == PrintedForm::groups || form == PrintedForm::table)
+    return writeOutput("-", report::suiteText(entries, dir, coloured()));
   std::string out = form == PrintedForm::json ? "[\n" : "";
   for (const SuiteEntry& entry : entries)
     out += form == PrintedForm::json ? (&entry == &entries.front() ? "" : ",\n") + summaryOf(entry, dir)

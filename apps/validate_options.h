@@ -16,9 +16,13 @@ void addMapOption(CLI::App& verb, std::vector<std::string>& map);
 /// Reads a torque file and reports once on stderr how it was interpreted and which columns were ignored. Throws
 /// CsvError like readTorqueFile and parseColumnMap.
 TorqueFile readTorquesAloud(const std::string& file, const std::vector<std::string>& map, const Motors& motors);
+/// Says on standard error how the columns of a file of efforts were read, and which are ignored; `wanted` are
+/// targetNames().
+void sayHowRead(const std::string& file, const std::string& read_as, const std::vector<std::string>& ignored,
+                const std::vector<std::string>& wanted);
 
 /// The output of `validate` on standard output.
-enum class PrintedForm { table, verdict, json };
+enum class PrintedForm { groups, table, verdict, json };
 
 /// Prints one scenario's result; `dir` contains its files.
 void printResult(const ValidationResult& result, const std::filesystem::path& dir, PrintedForm form);

@@ -36,10 +36,13 @@ struct ValidateOptions {
   ExternalSolverOptions solver;  ///< the solver under test, if it has a command
   EffortTolerance tolerance;     ///< zeros if not given
   double time_limit = 0;         ///< per scenario, s; 0 if not given
-  bool json = false, quiet = false, strict = false;
+  bool json = false, quiet = false, verbose = false, strict = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 
-  PrintedForm form() const { return json ? PrintedForm::json : quiet ? PrintedForm::verdict : PrintedForm::table; }
+  PrintedForm form() const {
+    if (json) return PrintedForm::json;
+    return quiet ? PrintedForm::verdict : verbose ? PrintedForm::table : PrintedForm::groups;
+  }
 };
 
 /// "3 min", "5 h"
@@ -281,9 +284,12 @@ void addOutputOptions(CLI::App& verb, ValidateOptions& options) {
                                     "Prints only the summary on standard output, as in summary.json; for several "
                                     "scenarios or a folder an array of them.\n"
                                     "A scenario in error then has scenario, verdict \"error\" and error");
-  verb.add_flag("--quiet", options.quiet,
-                "Prints one line for each scenario: the verdict, and the reason unless it is a pass; no progress")
-      ->excludes(json);
+  CLI::Option* quiet = verb.add_flag("--quiet", options.quiet,
+                                     "Prints one line for each scenario: verdict, reason, likely cause; no progress");
+  quiet->excludes(json);
+  verb.add_flag("--verbose", options.verbose, "Prints every check with value, limit and share of the limit")
+      ->excludes(json)
+      ->excludes(quiet);
   verb.add_option("--format", options.format,
                   "Prints findings for CI on standard output instead: github (workflow commands), sarif (SARIF 2.1.0)")
       ->check(CLI::IsMember({"github", "sarif"}))
@@ -317,6 +323,7 @@ void addOtherSolvers(CLI::App& verb, ValidateOptions& options) {
 void addValidate(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<ValidateOptions>();
   CLI::App* verb = app.add_subcommand("validate", "Judges motor efforts by comparison with Simbody, and says why");
+  verb->group(judging);
   verb->add_option("scenario", options->scenarios,
                    "Scenario files (TOML), or folders: each *.toml in it, sorted; - for standard input")
       ->required();
@@ -344,6 +351,7 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
       ->check(finitePositive());
   verb->add_flag("--any-tolerance", options->tolerance.any, "Accepts even a tolerance at which zeros would pass");
   verb->footer(
+      "Example: ursula validate my.toml --torques mine.csv\n"
       "Several scenarios: each gets a folder under DIR, and all share index.html and junit.xml. A folder with one\n"
       "scenario is treated alike. A scenario that cannot be read, is out of reach or is singular counts as an error,\n"
       "and the others are judged. Nothing is written (exit 2) if all are in error, if two share a name, or if any is\n"

@@ -26,6 +26,10 @@ std::string withoutPercent(std::string text);
 /// Accepts a 64-bit unsigned integer in range. CLI11's own parser wraps around.
 CLI::Validator wholeNumber();
 
+/// The groups of verbs in `ursula --help`.
+constexpr const char *judging = "Judge", *preparing = "Prepare", *computing = "Compute", *studying = "Study",
+                     *reading = "Read";
+
 /// Registers a verb and stores in `run` its action, which returns the exit code.
 using AddVerb = void(CLI::App& app, std::function<int()>& run);
 

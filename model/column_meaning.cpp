@@ -53,7 +53,7 @@ std::optional<Column> meaningOfColumn(const std::string& name) {
   std::smatch found;
   if (const auto torque = meaningOf(name))
     return Column{torque->motor < 0 ? ColumnQuantity::time : ColumnQuantity::effort, torque->motor,
-                  std::pow(10.0, torque->power)};
+                  std::pow(10.0, torque->power) * torque->multiplier};
   const auto digit = [&](std::size_t group) { return found[group].str()[0] - '0'; };
   if (std::regex_match(name, found, of_leg))
     return Column{ColumnQuantity::driven, digit(2), factorOf(found[3]), 0, name, coordinateOf(found[1])};

@@ -30,6 +30,7 @@ ScenarioTable mechanism() {
             "the body whose motion is reported; by default the one farthest from the base, counted in joints"},
            texts("close", "`\"A:B\"`: a ball joins the frame origins of these two links"),
            {"base", KeyType::string, "", no_default, "a body that stands still"},
+           {"key", KeyType::string, "", no_default, "a keyframe of an MJCF whose pose is the initial one"},
            {"gravity", KeyType::vector, "m/s²", no_default, "instead of the file's"},
            tableKey("numbers", no_default, "numbers in place of the file's: `\"body.NAME.mass\" = 1.2`, as in a sweep",
                     "mechanism.numbers"),

@@ -37,6 +37,7 @@ MechanismChoices readChoices(const TomlSection& table) {
   out.close = table.readStrings("close").value_or(std::vector<std::string>());
   out.leave_out = table.readStrings("leave_out").value_or(std::vector<std::string>());
   table.read("base", out.base);
+  table.read("key", out.key);
   if (Vector3d gravity; table.read("gravity", gravity)) out.gravity = gravity;
   return out;
 }

@@ -19,6 +19,7 @@ struct MechanismChoices {
   std::vector<std::string> motors;  ///< names of joints; empty for those that the file drives
   std::vector<std::string> close;   ///< "A:B", two links whose frame origins a ball joins
   std::string base;                 ///< a body that stands still, or empty
+  std::string key;                  ///< a keyframe whose pose is the initial one, or empty
   std::vector<std::string> leave_out;
   std::optional<Vector3d> gravity;
 };

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/manipulator.h"
+#include "model/effort_axes.h"
 
 namespace ursula {
 
@@ -15,28 +15,33 @@ enum class EffortKind { untold, moment, force };
 /// The time, or the effort of a motor, from an unambiguous column name.
 struct ColumnMeaning {
   int motor = 0;  ///< −1 for the time; otherwise as numbered in the file
-  int power = 0;  ///< power of ten from the name's unit to SI
   EffortKind kind = EffortKind::untold;
+  int power = 0;          ///< power of ten from the name's unit to SI
+  double multiplier = 1;  ///< beside the power: 9.80665 for kgf
 
   /// Whether the unit is that of motor k, 0-based, or unknown.
-  bool fits(const Motors& motors, int k) const {
-    return kind == EffortKind::untold || (kind == EffortKind::force) == motors[static_cast<std::size_t>(k)].slides();
+  bool fits(const EffortAxes& motors, int k) const {
+    return kind == EffortKind::untold || (kind == EffortKind::force) == motors[k].slides;
   }
 };
 
-/// Interprets `tau1`, `Tau 1 [Nm]`, `torque_1 (kN m)`, `force 2 [N]`, `t`, `Time [ms]`; nullopt for an ambiguous name.
+/// Interprets `tau1`, `Tau 1 [Nm]`, `torque_1 (kN m)`, `tau_2_kgfcm`, `force 2 [lbf]`, `t`, `Time [ms]`; nullopt for an
+/// ambiguous name.
 std::optional<ColumnMeaning> meaningOf(const std::string& name);
 
+/// Interprets `tau_JOINT_kNm` or `JOINT_Nm`, whose motor is then numbered from 0; nullopt for any other name.
+std::optional<ColumnMeaning> meaningByJoint(const std::string& name, const EffortAxes& motors);
+
 /// Interprets a name of the contract, possibly with another unit: `tau_1_kNm`. Its motor is numbered from 0.
-std::optional<ColumnMeaning> meaningOfTarget(const std::string& name);
+std::optional<ColumnMeaning> meaningOfTarget(const std::string& name, const EffortAxes& motors);
 
 /// "t_s" for −1, otherwise the column of that motor's effort.
-std::string targetName(const Motors& motors, int k);
-/// All seven names.
-std::vector<std::string> targetNames(const Motors& motors);
+std::string targetName(const EffortAxes& motors, int k);
+/// The time's, then those of all motors.
+std::vector<std::string> targetNames(const EffortAxes& motors);
 
 /// "motor 3 slides, its efforts are 'tau_3_N' (N)".
-std::string whatItTakes(const Motors& motors, int k);
+std::string whatItTakes(const EffortAxes& motors, int k);
 
 /// "tau_3_Nm", or "tau_3_N" if motor k, 0-based, slides.
 inline std::string effortColumn(const Motors& motors, int k) {

@@ -100,11 +100,13 @@ py::object scenarioOf(const py::object& given, const std::optional<std::filesyst
 
 std::shared_ptr<ScenarioWithSolver> importModel(const std::filesystem::path& file, const std::string& base,
                                                 const std::string& platform, const std::vector<std::string>& actuated,
-                                                const std::vector<std::string>& close, double tolerance, double lump) {
+                                                const std::vector<std::string>& close, double tolerance, double lump,
+                                                const std::vector<std::string>& leave_out, const std::string& key) {
   std::shared_ptr<ScenarioWithSolver> out;
   try {
     const Unlocked unlocked;
-    exchange::Imported imported = exchange::importModel(file, {base, platform, actuated, close, {}, tolerance, lump});
+    exchange::Imported imported =
+        exchange::importModel(file, {base, platform, key, actuated, close, leave_out, tolerance, lump});
     const std::filesystem::path named = std::filesystem::path(file).replace_extension(".toml");
     out = std::make_shared<ScenarioWithSolver>(parseScenario(imported.scenario, named));
     out->assumptions = std::move(imported.assumptions);
@@ -140,7 +142,7 @@ void addDocuments(py::module_& module, ScenarioClass& scenario) {
   module.def("import_model", &importModel, py::arg("path"), py::kw_only(), py::arg("base") = "",
              py::arg("platform") = "", py::arg("actuated") = std::vector<std::string>(),
              py::arg("close") = std::vector<std::string>(), py::arg("tolerance") = 1e-5, py::arg("lump") = 1e-3,
-             words::import_model);
+             py::arg("leave_out") = std::vector<std::string>(), py::arg("key") = "", words::import_model);
   module.def("read_scenario", &readAny, py::arg("path"), words::read_scenario);
   module.def("scenario", &scenarioOf, py::arg("dict_or_text"), py::kw_only(), py::arg("folder") = py::none(),
              words::scenario_of);

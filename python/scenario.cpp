@@ -14,6 +14,7 @@
 
 #include "python/archive.h"
 #include "python/bindings.h"
+#include "python/machine_numbers.h"
 #include "python/mechanism.h"
 #include "python/motion.h"
 #include "python/words.h"
@@ -198,8 +199,6 @@ std::vector<PlatformPose> directKinematics(const ScenarioWithSolver& self, const
   return on_spheres ? posesOnSpheres(machine, driven) : posesOfPaper(self.kinematics, driven);
 }
 
-py::array_t<double> vectorOf(const double* from, py::ssize_t count) { return py::array_t<double>(count, from); }
-
 /// The content of a scenario, independent of its folder.
 py::tuple textOf(const ScenarioWithSolver& self) {
   return py::make_tuple(self.scenario.text, std::filesystem::absolute(self.scenario.file).string());
@@ -266,6 +265,17 @@ void addScenario(py::module_& module) {
       .def_property_readonly(
           "duration", [](const ScenarioWithSolver& self) { return self.scenario.trajectory->duration(); },
           "Duration of the motion, t_f, s.")
+      .def_property_readonly(
+          "legs", [](const ScenarioWithSolver& self) { return legsOf(self.scenario.manipulator->given()); },
+          "The legs' numbers, with those that they share: kind, base_point, base_axis, platform_point, proximal, "
+          "distal, ….")
+      .def_property_readonly(
+          "platform", [](const ScenarioWithSolver& self) { return platformOf(self.scenario.manipulator->given()); },
+          "The platform's mass, kg, center_of_mass in M, m, and inertia about it, kg m².")
+      .def_property_readonly(
+          "gravity",
+          [](const ScenarioWithSolver& self) { return vectorOf(self.scenario.manipulator->gravity().data(), 3); },
+          "g in B, m/s²: (3,).")
       .def("motion", &motionAt, py::arg("t"), words::at)
       .def("inverse_dynamics", &inverseDynamics, py::arg("m"), py::kw_only(), py::arg("jobs") = 0,
            words::inverse_dynamics)

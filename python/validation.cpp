@@ -19,6 +19,8 @@
 #include "python/result.h"
 #include "python/result_archive.h"
 #include "python/words.h"
+#include "report/text/result_facts.h"
+#include "report/text/terminal.h"
 
 namespace ursula::python {
 namespace py = pybind11;
@@ -229,6 +231,10 @@ void addResult(py::module_& module) {
           },
           "The contents of summary.json as a dict.")
       .def("write", &written, py::arg("dir"), words::write)
+      .def_property_readonly(
+          "sentence", [](const Result& result) { return report::sentence(result); },
+          "What was found, in the words of the report's head.")
+      .def("__str__", [](const Result& result) { return report::validationText(result, false); })
       .def("__repr__", [](const Result& result) {
         return "<ursula.Result " + result.scenario + ": " + ursula::name(result.verdict) + ">";
       });

@@ -64,7 +64,8 @@ constexpr const char* import_model =
 candidates. actuated: the joints that motors drive, if the file does not name them. close: pairs "A:B" of links
 whose frames a ball joins. tolerance (rad, and share of the machine's size): the largest error of axes that count
 as square or meeting. lump: the largest share of a leg's moments that crosses within joints may have; it is left
-out. The scenario's `assumptions` lists the assumptions made; warnings.warn() says those with `warning`, such as a
+out. leave_out: what of the file is left out, as in the command line. key: a keyframe whose pose is the initial one.
+The scenario's `assumptions` lists the assumptions made; warnings.warn() says those with `warning`, such as a
 closure that is open by more than 1e-3 of the machine's size. Raises ScenarioError.)";
 
 constexpr const char* assumptions =

@@ -56,6 +56,7 @@ int compareFiles(const Options& options) {
 void addCompare(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<Options>();
   CLI::App* verb = app.add_subcommand("compare", "Compares two result folders or two CSV files, channel by channel");
+  verb->group(judging)->footer("Example: ursula compare results/old results/new");
   verb->add_option("reference", options->reference, "Result folder, or CSV file with t_s")->required();
   verb->add_option("test", options->test, "Result folder, or CSV file, to compare with it")->required();
   verb->add_option("--tolerance", options->tolerances.tolerance,

@@ -74,6 +74,7 @@ void addEngines(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<EnginesOptions>();
   CLI::App* verb = app.add_subcommand(
       "engines", "Compares engines on one machine: how to get efforts right, how wrong the obvious calls are");
+  verb->group(studying)->footer("Example: ursula engines my.toml --out engines");
   verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
   verb->add_option("--out", options->out, "Folder for report.html, engines.json and engines.csv");
   verb->add_option("--engine", options->engines, "Names of the engines to ask; default: all in this build")

@@ -45,6 +45,7 @@ void addExport(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<ExportOptions>();
   CLI::App* verb =
       app.add_subcommand("export", "Writes the machine at the motion's first instant as a model for other tools");
+  verb->group(preparing)->footer("Example: ursula export my.toml --format mjcf --out my.xml");
   verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
   const std::map<std::string, ModelFormat> formats = {
       {"sdf", ModelFormat::sdf}, {"mjcf", ModelFormat::mjcf}, {"urdf", ModelFormat::urdf}};

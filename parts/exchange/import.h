@@ -11,6 +11,7 @@ namespace ursula::exchange {
 /// The user's choices for what a file does not say and the import does not guess.
 struct ImportChoices {
   std::string base, platform;          ///< a body's name, or empty
+  std::string key;                     ///< a keyframe's name, or empty
   std::vector<std::string> actuated;   ///< names of joints
   std::vector<std::string> closed;     ///< "A:B", two links whose frame origins a ball joins
   std::vector<std::string> leave_out;  ///< words of leaveOut()

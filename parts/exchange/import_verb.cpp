@@ -70,6 +70,7 @@ void addImport(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<ImportOptions>();
   CLI::App* verb =
       app.add_subcommand("import", "Makes a scenario from a model in SDF, MJCF or URDF, and prints its assumptions");
+  verb->group(preparing)->footer("Example: ursula import robot.xml --out my.toml");
   exchange::ImportChoices& choices = options->choices;
   verb->add_option("model", options->model, "Model file: SDF, MJCF or URDF")->required();
   verb->add_option("--base", choices.base,
@@ -80,6 +81,7 @@ void addImport(CLI::App& app, std::function<int()>& run) {
       ->delimiter(',');
   verb->add_option("--close", choices.closed,
                    "Two links, A:B: a ball joint connects the origins of their frames; once for each loop");
+  verb->add_option("--key", choices.key, "Keyframe of an MJCF whose pose is the initial one");
   verb->add_option("--leave-out", choices.leave_out,
                    "Leaves out what the file has: fluid, ball-friction, passive-armature, passive-friction, springs, "
                    "limits; passive joints are those without a motor")

@@ -1,6 +1,7 @@
 #include "parts/exchange/keyframe.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -105,30 +106,46 @@ void moveBy(const std::vector<Eigen::Isometry3d>& moved, ModelGraph& graph) {
   }
 }
 
+[[noreturn]] void refuseKey(const ModelGraph& graph, const std::string& asked) {
+  std::vector<std::string> names;
+  for (const Keyframe& key : graph.keyframes) names.push_back(key.name);
+  throw ImportError(fmt::format("no keyframe '{}', {}{}", shown(asked),
+                                names.empty()
+                                    ? "as the file has none"
+                                    : shown(fmt::format("expected one of '{}'", fmt::join(names, "', '")), 400),
+                                didYouMean(asked, names)));
+}
+
 }  // namespace
 
-void takeKeyframe(ModelGraph& graph, double size) {
+void takeKeyframe(ModelGraph& graph, double size, const std::string& asked) {
   const double gap = widestGap(graph, size);
-  const auto home = std::find_if(graph.keyframes.begin(), graph.keyframes.end(),
-                                 [](const Keyframe& key) { return key.name == "home"; });
-  if (!(gap > worth_a_keyframe) || (home == graph.keyframes.end() && graph.keyframes.size() != 1)) return;
+  const auto named = [&graph](const std::string& name) {
+    return std::find_if(graph.keyframes.begin(), graph.keyframes.end(),
+                        [&](const Keyframe& key) { return key.name == name; });
+  };
+  const auto home = named(asked.empty() ? "home" : asked);
+  if (!asked.empty() && home == graph.keyframes.end()) refuseKey(graph, asked);
+  if (asked.empty() && (!(gap > worth_a_keyframe) || (home == graph.keyframes.end() && graph.keyframes.size() != 1)))
+    return;
   const Keyframe key = home == graph.keyframes.end() ? graph.keyframes[0] : *home;
   if (key.qpos.empty()) return;
   ModelGraph at_key = graph;
   moveBy(displacements(at_key, coordinatesOf(graph, key)), at_key);
-  if (!(widestGap(at_key, size) < gap)) return;
+  if (asked.empty() && !(widestGap(at_key, size) < gap)) return;
   graph = std::move(at_key);
   for (const GraphJoint& joint : graph.joints)
     if (joint.kind == JointKind::ball && !joint.closure)
       graph.assumptions.push_back(
           {"This ball's quaternion counts from the keyframe, not from the file's zero", joint.name});
+  const std::string taken = fmt::format("The initial pose is that of the keyframe '{}'", shown(key.name));
   for (Assumption& each : graph.assumptions)
     if (each.what == keyframes_left_out)
-      each = {
-          fmt::format("The initial pose is that of the keyframe '{}', as the bodies' own leaves loops open by this, "
-                      "in rad or of the machine's size",
-                      shown(key.name)),
-          "<keyframe>", gap};
+      each = asked.empty() ? Assumption{taken +
+                                            ", as the bodies' own leaves loops open by this, in rad or of the "
+                                            "machine's size",
+                                        "<keyframe>", gap}
+                           : Assumption{taken, "<keyframe>"};
 }
 
 }  // namespace ursula::exchange

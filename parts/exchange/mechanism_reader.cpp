@@ -157,7 +157,7 @@ ModelRead readMechanismModel(const std::filesystem::path& file, const MechanismC
     ModelGraph graph = readGraph(file);
     closeLoops(graph, choices.close);
     const double size = sizeOfModel(graph);
-    takeKeyframe(graph, size);
+    takeKeyframe(graph, size, choices.key);
     takeMotors(graph, choices.motors);
     holdBase(graph, choices.base);
     takeGravity(graph, choices.gravity);

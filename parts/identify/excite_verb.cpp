@@ -33,6 +33,7 @@ void addExcite(CLI::App& app, std::function<int()>& run) {
   const auto call = std::make_shared<ExciteCall>();
   CLI::App* verb = app.add_subcommand(
       "excite", "Finds a periodic motion that shows the machine's numbers to `identify`, as a samples file");
+  verb->group(preparing)->footer("Example: ursula excite my.toml --out excitation.csv");
   ExciteOptions& o = call->options;
   verb->add_option("scenario", call->scenario, "Scenario file (TOML), - for standard input")->required();
   verb->add_option("--out", call->out, "CSV file for kind = \"samples\"; - for standard output")->capture_default_str();

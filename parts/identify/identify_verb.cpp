@@ -72,6 +72,7 @@ void addIdentify(CLI::App& app, std::function<int()>& run) {
   const auto call = std::make_shared<IdentifyCall>();
   CLI::App* verb = app.add_subcommand(
       "identify", "Compares measured efforts with the model, judges it, and estimates its parameters");
+  verb->group(judging)->footer("Example: ursula identify my.toml --measured log.csv");
   verb->add_option("scenario", call->scenario, "Scenario file (TOML), - for standard input")->required();
   verb->add_option("--measured", call->measured,
                    "CSV file with t_s, driven coordinates or poses, efforts or currents, and optionally a load")

@@ -61,6 +61,7 @@ void addMap(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<MapOptions>();
   CLI::App* verb = app.add_subcommand(
       "map", "Computes reach, condition number, leg margins and largest static effort over a grid of poses");
+  verb->group(computing);
   verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
   for (std::size_t i = 0; i < grid_axes; ++i)
     verb->add_option(std::string("--") + grid_axis_names[i], options->axes[i],
@@ -73,6 +74,7 @@ void addMap(CLI::App& app, std::function<int()>& run) {
                    "rsvg-convert, of Debian's librsvg2-bin");
   addRowOptions(*verb, options->format, options->jobs);
   verb->footer(
+      "Example: ursula map my.toml --out map.csv\n"
       "Each of --x to --yaw takes FROM,TO,COUNT, or one value. Two or three of them vary; by default x, y and z vary\n"
       "around the path.");
   verb->callback([options, &run] { run = [options] { return map(*options); }; });

@@ -257,6 +257,7 @@ void addDirect(CLI::App& app, std::function<int()>& run) {
   CLI::App* verb = app.add_subcommand(
       "direct",
       "Computes every real pose of the platform for given leg angles or lengths, or the assemblies of a mechanism");
+  verb->group(computing);
   verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
   verb->add_option(
       "motion", options->motion,
@@ -270,6 +271,7 @@ void addDirect(CLI::App& app, std::function<int()>& run) {
                    "Driven coordinates of legs of any kinds, rad or m, in the motors' order, separated by commas");
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
   verb->footer(
+      "Example: ursula direct my.toml --phi 0.1,0.2,0.1,0.2,0.1,0.2\n"
       "Each row is one pose. URS legs have at most eight poses, those that assemble come first; other legs at most "
       "40.\n"
       "A pose that leg i cannot reach has assembles = 0, reach_i = 0 and psi_i, theta_i = nan. If side_i = 1, inverse\n"

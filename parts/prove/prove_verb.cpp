@@ -140,6 +140,7 @@ int prove(const ProveOptions& options) {
 void addProve(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<ProveOptions>();
   CLI::App* verb = app.add_subcommand("prove", "Injects defects into the solver and shows which check catches each");
+  verb->group(studying)->footer("Example: ursula prove my.toml");
   verb->add_option("scenario", options->scenario,
                    "Scenario file (TOML), - for standard input; default: the built-in proving ground");
   verb->add_option("--out", options->out, "Folder for a page: defects against checks, thresholds");

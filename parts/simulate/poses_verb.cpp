@@ -18,6 +18,7 @@ void addPoses(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<PosesOptions>();
   CLI::App* verb =
       app.add_subcommand("poses", "Writes points A, R, B of every leg along the trajectory as CSV, for drawings");
+  verb->group(computing)->footer("Example: ursula poses my.toml --samples 11 --out points.csv");
   verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
   verb->add_option("--samples", options->samples, "Equally spaced instants from 0 to t_f")
       ->check(CLI::Range(2, 1000000))

@@ -53,6 +53,7 @@ int simulateVerb(const SimulateOptions& options) {
 void addSimulate(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<SimulateOptions>();
   CLI::App* verb = app.add_subcommand("simulate", "Computes the motion that a torque history produces, as CSV");
+  verb->group(computing)->footer("Example: ursula simulate my.toml --torques efforts.csv --out motion.csv");
   verb->add_option("scenario", options->scenario,
                    "Scenario file (TOML), - for standard input; the motion starts in its commanded state")
       ->required();

@@ -39,11 +39,7 @@ int simulateMechanismVerb(const MechanismScenario& scenario, const SimulateOptio
     MotorEffortHistory efforts = [&](double t) { return along.motion().inverseDynamics(t, work); };
     std::vector<double> instants = equallySpaced(duration, scenario.simulation.samples);
     if (!options.torques.empty()) {
-      const GivenEfforts given =
-          readMotorEfforts(options.torques, mechanism, duration, effortColumns(options.map, mechanism));
-      if (!given.ignored.empty())
-        say("{}: columns that are ignored: {}\n", shownPath(options.torques),
-            shown(fmt::format("{}", fmt::join(given.ignored, ", ")), 400));
+      const GivenEfforts given = readEffortsAloud(options.torques, options.map, scenario);
       efforts = effortSpline(given);
       instants = given.t;
     }

@@ -135,6 +135,7 @@ void addSweep(CLI::App& app, std::function<int()>& run) {
   CLI::App* verb = app.add_subcommand("sweep",
                                       "Runs many variants of one scenario into a database; continues where it stopped. "
                                       "Also:\nsweep merge, report, show");
+  verb->group(studying);
   verb->add_option("sweep", options->sweep, "Sweep file (TOML)");
   verb->add_option("--db", options->database, "SQLite database; default results/SWEEP.db");
   verb->add_option("--jobs", options->jobs, "Processes; rows are the same for any number")
@@ -147,6 +148,7 @@ void addSweep(CLI::App& app, std::function<int()>& run) {
                  "Runs points again that ended in error, for example because memory ran out");
   addSlurmOptions(*verb, *options);
   verb->footer(
+      "Example: ursula sweep study.toml --db study.db --jobs 2\n"
       "Exit code: 1 if any point failed, else 3 if any was inconclusive or in error, else 0; a point out of reach or\n"
       "singular is a result. 130 if Ctrl-C stopped it, 143 if SIGTERM did: finished points are kept, and the same\n"
       "command continues.");

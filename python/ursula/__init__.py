@@ -84,6 +84,7 @@ __all__ = [
 ]
 
 Result.plot = _notebook.plot
+Result.show = _notebook.show
 Result._repr_html_ = _notebook.html
 
 _classes = (Body, Cause, Channel, Check, Comparison, Deviation, Finding, Identified, MechanismMotion, MechanismScenario, Motion, Pose,

@@ -179,6 +179,16 @@ class Scenario:
     @property
     def duration(self) -> float:
         """Duration of the motion, s."""
+    @property
+    def legs(self) -> list[Any]:
+        """Of each leg: kind, base_point, base_axis, platform_point, proximal and distal (length, mass, center_of_mass,
+        off_line, inertia), knee, actuated, spin, friction, coulomb, rotor_inertia, smoothing_speed; SI."""
+    @property
+    def platform(self) -> Any:
+        """mass, center_of_mass (3,) in M and inertia (3, 3) about it; SI."""
+    @property
+    def gravity(self) -> Array:
+        """g in B, m/s²: (3,)."""
     def motion(self, t: npt.ArrayLike) -> Motion:
         """The commanded motion at t, s: (N,) or a number."""
     def inverse_dynamics(self, m: Motion, *, jobs: int = 0) -> Array:
@@ -359,6 +369,11 @@ class Result:
     def timeseries(self) -> dict[str, Array]: ...
     @property
     def summary(self) -> dict[str, Any]: ...
+    @property
+    def sentence(self) -> str:
+        """What was found, in the words of the report's head."""
+    def show(self, height: int = 900) -> Any:
+        """Shows the report: in a notebook below the cell, elsewhere in the browser."""
     def plot(self) -> Any:
         """Efforts and their error over time: a figure of Matplotlib, which has to be installed."""
     def write(self, dir: str | os.PathLike[str]) -> None:
@@ -511,6 +526,8 @@ def import_model(
     close: Sequence[str] = ...,
     tolerance: float = 1e-5,
     lump: float = 1e-3,
+    leave_out: Sequence[str] = ...,
+    key: str = "",
 ) -> Scenario:
     """Makes a scenario from a model in SDF, MJCF or URDF; `assumptions` lists the assumptions made."""
 

@@ -84,26 +84,73 @@ std::string whyLine(const Check& check) {
 std::string indented(std::size_t columns, const std::string& text) { return std::string(columns, ' ') + text + "\n"; }
 
 /// Returns a group's text, in which adjacent checks with the same reason share its line.
-std::string groupText(const std::vector<const Check*>& checks, const std::vector<std::string>& lines, bool coloured) {
+std::string groupText(const std::vector<const Check*>& checks, const std::vector<std::string>& lines, bool coloured,
+                      std::size_t indent) {
   std::string out;
   for (std::size_t k = 0; k < checks.size(); ++k) {
     const Check& check = *checks[k];
     const Paint paint = check.reason == Reason::reported ? Paint::quiet : paintOf(check.verdict);
-    out += "  " + painted(padded(verdictWord(check), verdict_width), paint, coloured) + "  " + lines[k] + "\n";
+    out += indented(indent, painted(padded(verdictWord(check), verdict_width), paint, coloured) + "  " + lines[k]);
     if (!isOpen(check)) continue;
     const std::string why = whyLine(check);
     const bool said_next = k + 1 < checks.size() && isOpen(*checks[k + 1]) && whyLine(*checks[k + 1]) == why;
-    if (!said_next) out += indented(verdict_width + 4, painted(why, paint, coloured));
+    if (!said_next) out += indented(indent + verdict_width + 2, painted(why, paint, coloured));
+  }
+  return out;
+}
+
+using Group = std::vector<const Check*>;
+
+std::vector<Group> shownGroups(const ValidationResult& result) {
+  std::vector<Group> out(checkGroups().size() + 1);
+  for (const Check& check : result.checks)
+    if (isShown(check)) out[groupOf(check.name)].push_back(&check);
+  return out;
+}
+
+std::string groupTitle(const ValidationResult& result, std::size_t k) {
+  return inEffortWords(result.effort, k < checkGroups().size() ? checkGroups()[k] : "Further checks");
+}
+
+/// "18 checks, invariance.engines at 16 % of its limit", of checks that all pass.
+std::string passedText(const Group& passed) {
+  const auto share = [](const Check* check) { return std::isnan(limitShare(*check)) ? 0 : limitShare(*check); };
+  const Check& closest = **std::max_element(passed.begin(), passed.end(),
+                                            [&](const Check* a, const Check* b) { return share(a) < share(b); });
+  const std::string of_limit = limitShareText(closest);
+  return fmt::format("{} check{}{}", passed.size(), passed.size() == 1 ? "" : "s",
+                     of_limit.empty() ? "" : fmt::format(", {} at {} of its limit", closest.name, of_limit));
+}
+
+/// A line for each group; of groups with open checks also these.
+std::string groupsText(const ValidationResult& result, bool coloured) {
+  const std::vector<Group> groups = shownGroups(result);
+  std::size_t width = 0;
+  for (std::size_t k = 0; k < groups.size(); ++k) width = std::max(width, columnsOf(groupTitle(result, k)));
+  std::string out;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    Group passed, others;
+    for (const Check* check : groups[k]) (check->verdict == Verdict::pass ? passed : others).push_back(check);
+    if (groups[k].empty()) continue;
+    const Check* worst = others.empty() ? passed.front() : others.front();
+    for (const Check* check : others)
+      if (check->verdict == Verdict::fail) worst = check;
+    const Paint paint = worst->reason == Reason::reported ? Paint::quiet : paintOf(worst->verdict);
+    out += "  " + painted(padded(verdictWord(*worst), verdict_width), paint, coloured) + "  " +
+           padded(groupTitle(result, k), width) + "  " +
+           (others.empty() ? passedText(passed) : fmt::format("{} of {}", others.size(), groups[k].size())) + "\n";
+    std::vector<std::vector<std::string>> rows;
+    for (const Check* check : others) rows.push_back(tableRow(*check));
+    out += groupText(others, alignedRows(rows, {Align::left, Align::right, Align::right, Align::left, Align::right}),
+                     coloured, 4);
   }
   return out;
 }
 
 std::string checksTable(const ValidationResult& result, bool coloured) {
-  std::vector<std::vector<const Check*>> groups(checkGroups().size() + 1);
-  for (const Check& check : result.checks)
-    if (isShown(check)) groups[groupOf(check.name)].push_back(&check);
+  const std::vector<Group> groups = shownGroups(result);
   std::vector<std::vector<std::string>> rows = {{"", "value", "limit", "unit", "of limit"}};
-  for (const auto& group : groups)
+  for (const Group& group : groups)
     for (const Check* check : group) rows.push_back(tableRow(*check));
   const std::vector<std::string> lines =
       alignedRows(rows, {Align::left, Align::right, Align::right, Align::left, Align::right});
@@ -112,9 +159,8 @@ std::string checksTable(const ValidationResult& result, bool coloured) {
   for (std::size_t k = 0; k < groups.size(); ++k) {
     if (groups[k].empty()) continue;
     const auto end = line + static_cast<std::ptrdiff_t>(groups[k].size());
-    const std::string title = k < checkGroups().size() ? checkGroups()[k] : "Further checks";
-    out += painted(inEffortWords(result.effort, title), Paint::strong, coloured) + "\n";
-    out += groupText(groups[k], {line, end}, coloured);
+    out += painted(groupTitle(result, k), Paint::strong, coloured) + "\n";
+    out += groupText(groups[k], {line, end}, coloured, 2);
     line = end;
   }
   return out;
@@ -130,6 +176,15 @@ std::string notApplicableText(const std::vector<Check>& checks) {
   std::string out;
   for (const auto& [why, which] : names) out += wrapped(why + ": ", 2, which);
   return out.empty() ? "" : "\n" + out;
+}
+
+/// How many checks were not made, in one line.
+std::string leftOutText(const std::vector<Check>& checks) {
+  const auto count = std::count_if(checks.begin(), checks.end(), [](const Check& check) { return !isShown(check); });
+  if (count == 0) return "";
+  return fmt::format("  {} here or {} not made; --verbose says why\n",
+                     count == 1 ? "1 check does not apply" : fmt::format("{} checks do not apply", count),
+                     count == 1 ? "was" : "were");
 }
 
 /// The deviation of each motor as a table, because six of them in one line are unreadable.
@@ -181,60 +236,54 @@ std::string reasonsText(const ValidationResult& result) {
   if (result.replay_error && replayIsOpen(result.checks)) out += replayText(*result.replay_error, result);
   if (const std::vector<MotorDeviation> motors = motorsOff(result); !motors.empty())
     out += result.effort + "s against the expected ones:\n" + motorsText(motors, motorNames(result));
-  if (const std::string worst = worstMotor(result); !worst.empty())
-    out += fmt::format("worst: {}\n", withoutControls(worst));
-  if (!result.cause_words.cause.empty()) out += causeText(result.cause_words) + "\n";
   return out.empty() ? "" : "\n" + out;
 }
 
-std::string quietHead(const SuiteEntry& entry, bool coloured) {
-  return fmt::format("{}: {} — {}\n", withoutControls(entry.scenario), paintedVerdict(entry.verdict, coloured),
-                     reason(entry.verdict, entry.checks));
+/// The verdict with its size and its cause.
+std::string headText(const ValidationResult& result, const std::string& verdict) {
+  const std::string deviation = deviationSentence(result), worst = worstMotor(result);
+  std::string out = fmt::format("{}: {}\nverdict: {} — {}\n", withoutControls(result.scenario), verdict, verdict,
+                                reason(result.verdict, result.checks));
+  if (!deviation.empty()) out += deviation + "\n";
+  if (!worst.empty()) out += fmt::format("worst: {}\n", withoutControls(worst));
+  if (!result.cause_words.cause.empty()) out += causeText(result.cause_words) + "\n";
+  return out;
 }
 
-/// Returns lines such as "  replay.position, replay.orientation: not replayed", with each reason once.
-std::string openChecks(const std::vector<Check>& checks) {
-  const bool any_failed = anyIs(checks, Verdict::fail);
-  std::vector<std::pair<std::string, std::string>> lines;  // reason, names
-  for (const Check& check : checks) {
-    if (!isOpen(check)) continue;
-    const bool undecided = any_failed && check.verdict == Verdict::inconclusive;
-    const std::string why = (undecided ? "inconclusive: " : "") + whyLine(check);
-    const auto said = std::find_if(lines.begin(), lines.end(), [&why](const auto& line) { return line.first == why; });
-    if (said == lines.end())
-      lines.emplace_back(why, check.name);
-    else
-      said->second += ", " + check.name;
-  }
-  std::string out;
-  for (const auto& [why, names] : lines) out += fmt::format("  {}: {}\n", names, why);
-  return out;
+std::string quietHead(const SuiteEntry& entry, bool coloured) {
+  const Check* worst = worstCheck(entry.checks);
+  const bool open = entry.verdict == Verdict::inconclusive && worst != nullptr && worst->verdict == entry.verdict;
+  return fmt::format("{}: {} — {}{}", withoutControls(entry.scenario), paintedVerdict(entry.verdict, coloured),
+                     reason(entry.verdict, entry.checks), open ? " " + whyLine(*worst) : "");
+}
+
+std::string inOneLine(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text + "\n";
 }
 
 }  // namespace
 
-std::string validationText(const ValidationResult& result, bool coloured) {
-  const std::string verdict = paintedVerdict(result.verdict, coloured), deviation = deviationSentence(result);
-  return fmt::format("{}: {}\n\n{}{}{}\nverdict: {} — {}\n{}", withoutControls(result.scenario), verdict,
-                     checksTable(result, coloured), notApplicableText(result.checks), reasonsText(result), verdict,
-                     reason(result.verdict, result.checks), deviation.empty() ? "" : deviation + "\n");
+std::string validationText(const ValidationResult& result, bool coloured, bool verbose) {
+  const std::string checks = verbose ? checksTable(result, coloured) + notApplicableText(result.checks)
+                                     : groupsText(result, coloured) + leftOutText(result.checks);
+  return headText(result, paintedVerdict(result.verdict, coloured)) + "\n" + checks + reasonsText(result);
 }
 
 std::string quietText(const ValidationResult& result, bool coloured) {
-  const SuiteEntry entry = suiteEntry(result, "");
+  std::string out = quietHead(suiteEntry(result, ""), coloured);
   const CauseWords& words = result.cause_words;
-  const std::string worst = worstMotor(result);
-  return quietHead(entry, coloured) + (worst.empty() ? "" : "  " + withoutControls(worst) + "\n") +
-         (words.cause.empty() ? "" : "  " + causeText(words) + "\n") + openChecks(entry.checks);
+  if (!words.cause.empty() && out.back() == '.') out.pop_back();
+  if (const std::string worst = worstMotor(result); !worst.empty()) out += " — " + withoutControls(worst);
+  if (!words.cause.empty()) out += "; " + causeText(words);
+  return inOneLine(out);
 }
 
 std::string quietText(const SuiteEntry& entry, bool coloured) {
   if (!entry.error.empty())
-    return fmt::format("{}: {} — {}\n", withoutControls(entry.scenario), painted("error", Paint::bad, coloured),
-                       withoutControls(entry.error));
-  std::vector<Check> checks = entry.checks;
-  for (Check& check : checks) check.why = whyInFull(check);
-  return quietHead(entry, coloured) + openChecks(checks);
+    return inOneLine(fmt::format("{}: {} — {}", withoutControls(entry.scenario), painted("error", Paint::bad, coloured),
+                                 entry.error));
+  return inOneLine(quietHead(entry, coloured));
 }
 
 bool wantsColour(bool is_terminal, const char* no_color, const char* term) {

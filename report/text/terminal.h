@@ -8,12 +8,12 @@
 
 namespace ursula::report {
 
-/// Returns a result as text for a mail: the checks in groups, each with value, limit, unit and share. A line of
-/// explanation follows each check that did not pass. Then come checks that do not apply with the reason, motors with
-/// deviations, and the verdict.
-std::string validationText(const ValidationResult& result, bool coloured);
+/// Returns a result as text for a mail: verdict, size of the deviation and cause; then a line for each group of checks,
+/// with those that did not pass and why; then details of wrong motors. `verbose` gives all checks with value, limit,
+/// unit and share, and the reasons of those that do not apply.
+std::string validationText(const ValidationResult& result, bool coloured, bool verbose = false);
 
-/// Returns the verdict in a line, then the likely cause, and a line per reason why checks failed or are undecided.
+/// Returns the verdict, the worst motor and the likely cause in one line.
 std::string quietText(const ValidationResult& result, bool coloured);
 std::string quietText(const SuiteEntry& entry, bool coloured);
 

@@ -149,6 +149,18 @@ TEST(ReadKeyframe, closesWhatTheFilesPoseLeavesOpen) {
               HasSubstr("qpos has 1 numbers, expected 2"));
 }
 
+TEST(ReadKeyframe, isThatWhichTheUserNames) {
+  const std::string keys = "<key name='home' qpos='0.75 0'/><key name='other' qpos='0.5 0'/>";
+  MechanismChoices choices;
+  choices.key = "other";
+  const ModelRead model = mechanismOf("named.xml", keyed(keys), choices);
+  EXPECT_EQ(jointOf(model, "s").position, 0.5);
+  EXPECT_THAT(together(model.assumptions), HasSubstr("keyframe 'other'"));
+  choices.key = "othr";
+  EXPECT_THAT(refusal("named.xml", keyed(keys), choices),
+              HasSubstr("no keyframe 'othr', expected one of 'home', 'other', did you mean 'other'?"));
+}
+
 TEST(ReadIncludes, besideTheModel) {
   const std::string inner = "<mujocoinclude><body name='in'><joint/><geom size='0.1'/></body></mujocoinclude>";
   const std::string outer =

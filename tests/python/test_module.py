@@ -229,3 +229,16 @@ def test_other_threads_run_while_it_computes(helix):
     while thread.is_alive():
         turns += 1
     assert turns > 100, "the lock was held"
+
+
+def test_a_machine_has_its_numbers_merged(helix):
+    s = ursula.read_scenario(helix)
+    document = s.to_dict()["manipulator"]
+    assert len(s.legs) == 6 and s.platform.mass == document["platform"]["mass"] > 0
+    np.testing.assert_array_equal(s.gravity, [0, 0, -9.81])
+    for leg, own in zip(s.legs, document["leg"]):
+        np.testing.assert_array_equal(leg.base_point, own["base_point"])
+        assert leg.proximal.mass == document["leg_defaults"]["proximal"]["mass"] > 0
+        assert leg.distal.inertia.shape == (3, 3) and leg.distal.inertia[0, 0] == document["leg_defaults"]["distal"]["inertia"][0]
+        assert abs(np.linalg.norm(leg.base_axis) - 1) < 1e-15
+        assert leg.actuated == ["phi"] and set(leg.friction) == {"phi", "psi", "theta"}

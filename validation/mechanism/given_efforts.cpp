@@ -8,18 +8,10 @@
 #include "base/text.h"
 #include "validation/mechanism/validate_mechanism.h"
 #include "validation/subject/printed_precision.h"
+#include "validation/subject/torque_columns.h"
 
 namespace ursula {
 namespace {
-
-/// The column of motor k, by its number or its joint's name.
-std::string columnOf(const CsvTable& table, const Mechanism& mechanism, std::size_t k) {
-  const std::string by_number = motorColumn(mechanism, k, "tau"), joint = mechanism.motor(k).name;
-  const std::string unit = mechanism.effortUnit(k);
-  for (const std::string& name : {by_number, fmt::format("tau_{}_{}", joint, unit), fmt::format("{}_{}", joint, unit)})
-    if (table.find(name) != nullptr) return name;
-  return by_number;
-}
 
 /// Instants k·step are exact, since rounding would be visible; others may be off by half of their last digit.
 void setTimePrecision(const std::vector<int>& places, GivenEfforts& out) {
@@ -46,45 +38,29 @@ void requireInstants(const CsvTable& table, std::vector<double>& t, double durat
   }
 }
 
-using ColumnNames = std::vector<std::pair<std::string, std::string>>;
-
-GivenEfforts effortsIn(const CsvTable& table, const Mechanism& mechanism, double duration, const ColumnNames& map) {
-  const auto mapped = [&](const std::string& name) {
-    const auto found = std::find_if(map.begin(), map.end(), [&](const auto& each) { return each.first == name; });
-    return found == map.end() ? std::string() : found->second;
-  };
+GivenEfforts effortsIn(const std::string& text, const std::filesystem::path& file, const Mechanism& mechanism,
+                       double duration, const ColumnMap& map) {
+  const TorqueColumns read = readTorqueColumns(text, file, map, mechanism);
+  const CsvTable& table = read.table;
   GivenEfforts out;
-  out.name = table.file.filename().string();
-  const std::string time = mapped("t_s").empty() ? "t_s" : mapped("t_s");
-  out.t = table.at(time);
-  std::vector<std::string> used = {time};
-  const auto n = static_cast<Eigen::Index>(mechanism.motorCount());
-  out.efforts.assign(table.rows(), Eigen::VectorXd::Zero(n));
+  out.name = file.filename().string();
+  out.read_as = read.read_as;
+  out.ignored = table.ignored;
+  out.t = table.columns.front();
+  const std::size_t n = mechanism.motorCount();
+  out.efforts.assign(table.rows(), Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n)));
   out.precision = out.efforts;
   PrintedPrecision printed;
-  std::vector<const std::vector<int>*> places;
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const auto motor = static_cast<std::size_t>(k);
-    const std::string own = mapped(motorColumn(mechanism, motor, "tau"));
-    const std::string name = own.empty() ? columnOf(table, mechanism, motor) : own;
-    const std::vector<double>& values = table.at(name);
-    used.push_back(name);
-    const auto column =
-        static_cast<std::size_t>(std::find(table.names.begin(), table.names.end(), name) - table.names.begin());
-    places.push_back(&table.last_places[column]);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      out.efforts[i](k) = values[i];
-      printed.add(values[i], (*places.back())[i]);
+  for (std::size_t k = 1; k <= n; ++k)
+    for (std::size_t i = 0; i < table.rows(); ++i) printed.add(table.columns[k][i], table.last_places[k][i]);
+  for (std::size_t k = 1; k <= n; ++k)
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+      const auto motor = static_cast<Eigen::Index>(k - 1);
+      const double value = table.columns[k][i];
+      out.efforts[i](motor) = value * read.multipliers[k];
+      out.precision[i](motor) = printed.of(value, table.last_places[k][i]) * read.multipliers[k];
     }
-  }
-  for (Eigen::Index k = 0; k < n; ++k)
-    for (std::size_t i = 0; i < out.t.size(); ++i)
-      out.precision[i](k) = printed.of(out.efforts[i](k), (*places[static_cast<std::size_t>(k)])[i]);
-  for (const std::string& name : table.names)
-    if (std::find(used.begin(), used.end(), name) == used.end()) out.ignored.push_back(name);
-  const auto at =
-      static_cast<std::size_t>(std::find(table.names.begin(), table.names.end(), time) - table.names.begin());
-  setTimePrecision(table.last_places[at], out);
+  setTimePrecision(table.last_places.front(), out);
   requireInstants(table, out.t, duration);
   return out;
 }
@@ -92,8 +68,8 @@ GivenEfforts effortsIn(const CsvTable& table, const Mechanism& mechanism, double
 }  // namespace
 
 GivenEfforts readMotorEfforts(const std::filesystem::path& file, const Mechanism& mechanism, double duration,
-                              const ColumnNames& map) {
-  GivenEfforts out = effortsIn(readCsv(file), mechanism, duration, map);
+                              const ColumnMap& map) {
+  GivenEfforts out = effortsIn(readCsvText(file), file, mechanism, duration, map);
   out.is_read = true;
   return out;
 }
@@ -108,7 +84,7 @@ GivenEfforts givenEfforts(const std::string& name, const std::vector<double>& t,
     fmt::format_to(out, "\n{}", t[i]);
     for (const double effort : efforts.at(i)) fmt::format_to(out, ",{}", effort);
   }
-  GivenEfforts read = effortsIn(parseCsv(fmt::to_string(text), name), mechanism, duration, {});
+  GivenEfforts read = effortsIn(fmt::to_string(text), name, mechanism, duration, {});
   read.name = name;
   return read;
 }

@@ -42,9 +42,8 @@ std::shared_ptr<const MechanismPicture> makePicture(const MechanismScenario& sce
 /// Returns the machine as its model file places it; for one that has too few motors or cannot move.
 std::shared_ptr<const MechanismPicture> pictureAsRead(const MechanismScenario& scenario);
 
-/// Reads `t_s` and one column of efforts for each motor, by number (`tau_1_Nm`, `tau_2_N`), by the joint's name, or as
-/// `map` says ("tau_1_Nm" and the column's own name). Throws CsvError,
-/// also for instants that do not increase or lie outside of the motion.
+/// Reads the columns that readTorqueColumns() finds. Throws CsvError, also for instants that do not increase or lie
+/// outside of the motion.
 GivenEfforts readMotorEfforts(const std::filesystem::path& file, const Mechanism& mechanism, double duration,
                               const std::vector<std::pair<std::string, std::string>>& map = {});
 

@@ -15,8 +15,6 @@
 namespace ursula {
 namespace {
 
-constexpr std::size_t wanted_columns = 1 + motor_count;
-
 std::string quoted(const std::string& text) {
   return text.find_first_of(" \t[](){}*;&|<>$`\"\\#?") == std::string::npos ? text : "'" + text + "'";
 }
@@ -29,13 +27,13 @@ std::string separatorWords(const CsvDialect& dialect) {
 /// Assigns a meaning to each column.
 class Finder {
  public:
-  Finder(const CsvDialect& dialect, const std::filesystem::path& file, const Motors& motors)
+  Finder(const CsvDialect& dialect, const std::filesystem::path& file, const EffortAxes& motors)
       : dialect_(dialect), file_(file), motors_(motors), targets_(targetNames(motors)) {}
 
   std::vector<TorqueColumn> find(const ColumnMap& map) {
     for (const auto& [name, column] : map) take(name, column);
     // Then tau_1_Nm belongs to motor 2.
-    const bool from_zero = (has("tau_0_Nm") || has("tau_0_N")) && !has("tau_6_Nm") && !has("tau_6_N");
+    const bool from_zero = (has("tau_0_Nm") || has("tau_0_N")) && !has(targets_.back());
     for (const std::string& name : targets_) {
       if (!from_zero && found_.count(name) == 0 && isTaken(name))
         fail(fmt::format("--map gives column '{}' to another name, so '{}' has none; expected --map {} too", name, name,
@@ -43,6 +41,7 @@ class Finder {
     }
     for (const std::string& name : targets_)
       if (has(name) && (!from_zero || name == "t_s")) found_.emplace(name, TorqueColumn{name, name, 0});
+    takeByJoint();
     takeCertain();
     std::vector<TorqueColumn> out;
     for (const std::string& name : targets_) {
@@ -75,33 +74,43 @@ class Finder {
     if (!has(column))
       fail(fmt::format("no column '{}' (--map {}), the header has {}{}", column, quoted(name + "=" + column),
                        headerInWords(), didYouMean(column, dialect_.header_cells)));
-    const ColumnMeaning meaning = *meaningOfTarget(name);
+    const ColumnMeaning meaning = *meaningOfTarget(name, motors_);
     const std::string target = targetName(motors_, meaning.motor);
-    found_.emplace(target, TorqueColumn{target, column, meaning.power});
+    found_.emplace(target, TorqueColumn{target, column, meaning.power, meaning.multiplier});
   }
 
   void takeCertain() {
     std::vector<std::pair<std::string, ColumnMeaning>> certain;
-    bool zero = false, six = false;
+    bool zero = false, last = false;
     for (const std::string& column : dialect_.header_cells) {
       const std::optional<ColumnMeaning> meaning = isTaken(column) ? std::nullopt : meaningOf(column);
       if (!meaning) continue;
       certain.emplace_back(column, *meaning);
       zero = zero || meaning->motor == 0;
-      six = six || meaning->motor == 6;
+      last = last || meaning->motor == motors_.count();
     }
-    if (zero && six) return;  // of seven efforts the superfluous one is unknown
+    if (zero && last) return;  // of one effort too many the superfluous one is unknown
     const auto by_map_or_name = found_;
     for (auto& [column, meaning] : certain) {
       const int motor = meaning.motor < 0 || zero ? meaning.motor : meaning.motor - 1;
-      const std::string name = targetName(motors_, motor);
-      if (by_map_or_name.count(name) > 0) continue;
-      if (motor >= 0 && !meaning.fits(motors_, motor))
-        wrong_unit_.emplace(name, fmt::format("column '{}': {}", column, whatItTakes(motors_, motor)));
-      else if (!found_.emplace(name, TorqueColumn{name, column, meaning.power}).second)
-        fail(fmt::format("'{}' and '{}' may both be {}, expected one; choose by --map {}", found_.at(name).source,
-                         column, name, quoted(name + "=" + column)));
+      if (motor >= motors_.count()) continue;
+      if (by_map_or_name.count(targetName(motors_, motor)) == 0) takeAs(motor, column, meaning);
     }
+  }
+
+  void takeByJoint() {
+    for (const std::string& column : dialect_.header_cells)
+      if (!isTaken(column))
+        if (const auto meaning = meaningByJoint(column, motors_)) takeAs(meaning->motor, column, *meaning);
+  }
+
+  void takeAs(int motor, const std::string& column, const ColumnMeaning& meaning) {
+    const std::string name = targetName(motors_, motor);
+    if (motor >= 0 && !meaning.fits(motors_, motor))
+      wrong_unit_.emplace(name, fmt::format("column '{}': {}", column, whatItTakes(motors_, motor)));
+    else if (!found_.emplace(name, TorqueColumn{name, column, meaning.power, meaning.multiplier}).second)
+      fail(fmt::format("'{}' and '{}' may both be {}, expected one; choose by --map {}", found_.at(name).source, column,
+                       name, quoted(name + "=" + column)));
   }
 
   /// Adds options that would read the file if unassigned columns end in the leg's number.
@@ -120,10 +129,10 @@ class Finder {
   }
 
   /// Never suggests a column of another motor.
-  static std::vector<std::string> likeliest(const std::string& name, const std::vector<std::string>& columns) {
+  std::vector<std::string> likeliest(const std::string& name, const std::vector<std::string>& columns) const {
     std::vector<std::string> out;
     std::copy_if(columns.begin(), columns.end(), std::back_inserter(out), [&](const std::string& column) {
-      return (column.size() != name.size() && !meaningOfTarget(column)) || name == "t_s";
+      return (column.size() != name.size() && !meaningOfTarget(column, motors_)) || name == "t_s";
     });
     return out;
   }
@@ -134,23 +143,22 @@ class Finder {
     std::size_t next = 0;
     for (const std::string& name : targets_) {
       if (found_.count(name) > 0) continue;
-      const std::string number = name == "t_s" ? "" : name.substr(4, 1);
-      const auto column =
-          dialect_.header == 0 || (name == "t_s" && dialect_.header_cells.size() == wanted_columns)
-              ? std::find(free.begin(), free.end(), next < free.size() ? free[next++] : "")
-              : std::find_if(free.begin(), free.end(), [&](const std::string& cell) {
-                  const auto digit = cell.find_first_of("0123456789");
-                  return number.empty() ? false : digit != std::string::npos && cell.substr(digit, 1) == number;
-                });
+      const std::string number = name == "t_s" ? "" : name.substr(4, name.rfind('_') - 4);
+      const auto column = dialect_.header == 0 || (name == "t_s" && dialect_.header_cells.size() == wanted())
+                              ? std::find(free.begin(), free.end(), next < free.size() ? free[next++] : "")
+                              : std::find_if(free.begin(), free.end(), [&](const std::string& cell) {
+                                  const auto digit = cell.find_first_of("0123456789");
+                                  const auto end = std::min(cell.find_first_not_of("0123456789", digit), cell.size());
+                                  return digit != std::string::npos && cell.substr(digit, end - digit) == number;
+                                });
       if (column == free.end())
         unguessed.push_back(name);
       else
         out += fmt::format(" --map {}", quoted(name + "=" + *column));
     }
-    if (found_.count("t_s") == 0 && dialect_.header == 0 && dialect_.header_cells.size() + 1 == wanted_columns)
+    if (found_.count("t_s") == 0 && dialect_.header == 0 && dialect_.header_cells.size() + 1 == wanted())
       return "; is the column of the time missing?";
-    if (dialect_.header_cells.size() > 2 * wanted_columns)
-      return "; is the table transposed? expected a row per instant";
+    if (dialect_.header_cells.size() > 2 * wanted()) return "; is the table transposed? expected a row per instant";
     if (unguessed.empty()) return "; if that is what its columns hold, add" + out;
     out += fmt::format(" --map {}=COLUMN", unguessed.front());
     unguessed.erase(unguessed.begin());
@@ -159,16 +167,18 @@ class Finder {
     return "; if its columns hold them under other names, add" + out + likewise;
   }
 
+  std::size_t wanted() const { return targets_.size(); }
+
   const CsvDialect& dialect_;
   const std::filesystem::path& file_;
-  const Motors& motors_;
+  const EffortAxes& motors_;
   std::vector<std::string> targets_;
   std::map<std::string, TorqueColumn> found_;
   std::map<std::string, std::string> wrong_unit_;  ///< by the missing column: the column found instead, in words
 };
 
-/// Whether only the first of seven columns without a header can be the time.
-bool isTimeThenTorques(const CsvTable& table) {
+/// Whether only the first of `wanted` columns without a header can be the time.
+bool isTimeThenTorques(const CsvTable& table, std::size_t wanted) {
   const auto looksLikeTime = [](const std::vector<double>& column) {
     const double step =
         column.size() < 3 ? 0 : (column.back() - column.front()) / static_cast<double>(column.size() - 1);
@@ -177,11 +187,11 @@ bool isTimeThenTorques(const CsvTable& table) {
       if (!(std::abs(column[k] - column[k - 1] - step) <= 0.01 * step)) return false;
     return true;
   };
-  return table.columns.size() == wanted_columns && looksLikeTime(table.columns.front()) &&
+  return table.columns.size() == wanted && looksLikeTime(table.columns.front()) &&
          std::none_of(table.columns.begin() + 1, table.columns.end(), looksLikeTime);
 }
 
-/// Puts the columns in this order, with their names and in SI.
+/// Puts the columns in this order, with their names and in SI but for the multipliers.
 void arrange(const std::vector<TorqueColumn>& columns, CsvTable& table) {
   const CsvTable given = table;
   for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -201,13 +211,16 @@ std::string readAs(const CsvDialect& dialect, const std::vector<TorqueColumn>& c
   for (const TorqueColumn& column : columns)
     if (column.source != column.name)
       out += fmt::format("{}{} = '{}'{}", out.empty() ? "" : ", ", column.name, column.source,
-                         column.power == 0 ? "" : fmt::format(" times 1e{}", column.power));
+                         column.multiplier != 1
+                             ? fmt::format(" times {:.7g}", column.multiplier * std::pow(10, column.power))
+                         : column.power == 0 ? ""
+                                             : fmt::format(" times 1e{}", column.power));
   return out;
 }
 
 }  // namespace
 
-ColumnMap parseColumnMap(const std::vector<std::string>& texts, const Motors& motors) {
+ColumnMap parseColumnMap(const std::vector<std::string>& texts, const EffortAxes& motors) {
   const std::vector<std::string> targets = targetNames(motors);
   ColumnMap out;
   for (const std::string& text : texts) {
@@ -219,13 +232,13 @@ ColumnMap parseColumnMap(const std::vector<std::string>& texts, const Motors& mo
     const std::string column =
         utf8(std::string(equals == std::string::npos ? "" : trimmedCell(std::string_view(text).substr(equals + 1))));
     if (name.empty() || column.empty()) fail(fmt::format("expected NAME=COLUMN, as in {}=tau1", targets[1]));
-    const std::optional<ColumnMeaning> meaning = meaningOfTarget(name);
+    const std::optional<ColumnMeaning> meaning = meaningOfTarget(name, motors);
     if (!meaning)
       fail(fmt::format("'{}' is not a column of a torque file, expected t_s or {} to {}{}", name, targets[1],
                        targets.back(), didYouMean(name, targets)));
     if (meaning->motor >= 0 && !meaning->fits(motors, meaning->motor)) fail(whatItTakes(motors, meaning->motor));
     for (const auto& [other, its_column] : out) {
-      if (meaningOfTarget(other)->motor == meaning->motor) fail(fmt::format("{} is mapped twice", name));
+      if (meaningOfTarget(other, motors)->motor == meaning->motor) fail(fmt::format("{} is mapped twice", name));
       if (its_column == column) fail(fmt::format("column '{}' is mapped to {} already", column, other));
     }
     out.emplace_back(name, column);
@@ -234,12 +247,13 @@ ColumnMap parseColumnMap(const std::vector<std::string>& texts, const Motors& mo
 }
 
 TorqueColumns readTorqueColumns(const std::string& text, const std::filesystem::path& file, const ColumnMap& map,
-                                const Motors& motors) {
+                                const EffortAxes& motors) {
   CsvOptions options;
   options.dialect = guessDialect(text, file);
   std::vector<TorqueColumn> columns;
-  if (options.dialect.header == 0 && map.empty() && isTimeThenTorques(parseCsv(text, file, options))) {
-    for (int k = -1; k < motor_count; ++k) columns.push_back({targetName(motors, k), std::to_string(k + 2), 0});
+  if (options.dialect.header == 0 && map.empty() &&
+      isTimeThenTorques(parseCsv(text, file, options), targetNames(motors).size())) {
+    for (int k = -1; k < motors.count(); ++k) columns.push_back({targetName(motors, k), std::to_string(k + 2), 0});
   } else if (options.dialect.header_cells.empty()) {
     parseCsv(text, file);  // reports the defect of an empty file
   } else {
@@ -248,7 +262,8 @@ TorqueColumns readTorqueColumns(const std::string& text, const std::filesystem::
   options.wanted = [&columns](const std::string& name) {
     return std::any_of(columns.begin(), columns.end(), [&](const TorqueColumn& one) { return one.source == name; });
   };
-  TorqueColumns out{parseCsv(text, file, options), readAs(options.dialect, columns)};
+  TorqueColumns out{parseCsv(text, file, options), {}, readAs(options.dialect, columns)};
+  for (const TorqueColumn& column : columns) out.multipliers.push_back(column.multiplier);
   arrange(columns, out.table);
   return out;
 }

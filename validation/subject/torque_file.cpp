@@ -60,7 +60,7 @@ void setTimePrecision(const std::vector<int>& places, const PrintedPrecision& wh
 }
 
 /// The table has the time, then the efforts of the motors.
-TorqueFile torquesOf(const CsvTable& table) {
+TorqueFile torquesOf(const CsvTable& table, const std::vector<double>& multipliers) {
   TorqueFile out;
   out.file = table.file;
   out.lines = table.lines;
@@ -74,14 +74,14 @@ TorqueFile torquesOf(const CsvTable& table) {
   for (std::size_t k = 0; k < table.rows(); ++k)
     for (std::size_t i = 0; i < motor_count; ++i) {
       const double value = table.columns[1 + i][k];
-      out.torques[k](static_cast<Eigen::Index>(i)) = value;
+      out.torques[k](static_cast<Eigen::Index>(i)) = value * multipliers[1 + i];
       torques.add(value, table.last_places[1 + i][k]);
       out.all_single = out.all_single && static_cast<double>(static_cast<float>(value)) == value;
     }
   for (std::size_t k = 0; k < table.rows(); ++k)
     for (std::size_t i = 0; i < motor_count; ++i)
       out.torque_precision[k](static_cast<Eigen::Index>(i)) =
-          torques.of(table.columns[1 + i][k], table.last_places[1 + i][k]);
+          torques.of(table.columns[1 + i][k], table.last_places[1 + i][k]) * multipliers[1 + i];
   out.digits = torques.digits();
   PrintedPrecision whole = torques;
   const std::vector<int>& places = table.last_places.front();
@@ -101,7 +101,7 @@ TorqueFile readTorqueFile(const std::filesystem::path& file, const ColumnMap& ma
 TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path& file, const ColumnMap& map,
                            const Motors& motors) {
   const TorqueColumns columns = readTorqueColumns(text, file, map, motors);
-  TorqueFile out = torquesOf(columns.table);
+  TorqueFile out = torquesOf(columns.table, columns.multipliers);
   out.read_as = columns.read_as;
   for (const auto& [name, column] : map) out.map += (out.map.empty() ? "" : " --map ") + shellWord(name + "=" + column);
   return out;

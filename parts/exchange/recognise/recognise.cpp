@@ -9,6 +9,7 @@
 
 #include "base/csv_dialect.h"
 #include "base/text.h"
+#include "parts/exchange/keyframe.h"
 #include "parts/exchange/leave_out.h"
 #include "parts/exchange/recognise/legs.h"
 
@@ -97,6 +98,7 @@ class Recogniser {
 
   ImportedMachine machine() {
     close(graph_, choices_.closed);
+    if (!choices_.key.empty()) takeKeyframe(graph_, 1, choices_.key);
     drive(graph_, choices_.actuated);
     leaveOut(graph_, choices_.leave_out, "--leave-out");  // before what is left is judged
     requireWords(graph_);
