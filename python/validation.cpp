@@ -19,8 +19,6 @@
 #include "python/result.h"
 #include "python/result_archive.h"
 #include "python/words.h"
-#include "report/text/result_facts.h"
-#include "report/text/terminal.h"
 
 namespace ursula::python {
 namespace py = pybind11;

@@ -93,3 +93,15 @@ void requireResults(const OutputFolder& out, const std::filesystem::path& below)
 void addSuiteIndex(const std::vector<SuiteEntry>& entries, OutputFolder& out);
 
 }  // namespace ursula
+
+namespace ursula::report {
+
+/// Returns the verdict as a sentence about the results. A failure starts with its likely cause.
+std::string sentence(const ValidationResult& result);
+
+/// Returns a result as text for a mail: verdict, size of the deviation and cause; then a line for each group of checks,
+/// with those that did not pass and why; then details of wrong motors. `verbose` gives all checks with value, limit, unit
+/// and share, and the reasons of those that do not apply.
+std::string validationText(const ValidationResult& result, bool coloured, bool verbose = false);
+
+}  // namespace ursula::report

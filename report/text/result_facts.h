@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "report/files/report.h"
 #include "validation/verdict/result.h"
 
 namespace ursula::report {
@@ -23,9 +24,6 @@ struct ResultFacts {
   CauseWords wrong;                     ///< which efforts are wrong, and why; may be empty
 };
 ResultFacts factsOf(const ValidationResult& result);
-
-/// Returns the verdict as a sentence about the results. A failure starts with its likely cause.
-std::string sentence(const ValidationResult& result);
 
 /// Returns the text below the sentence: the detailed reason for a failure or an undecided verdict; else empty.
 std::string detail(const ValidationResult& result);

@@ -8,11 +8,6 @@
 
 namespace ursula::report {
 
-/// Returns a result as text for a mail: verdict, size of the deviation and cause; then a line for each group of checks,
-/// with those that did not pass and why; then details of wrong motors. `verbose` gives all checks with value, limit,
-/// unit and share, and the reasons of those that do not apply.
-std::string validationText(const ValidationResult& result, bool coloured, bool verbose = false);
-
 /// Returns the verdict, the worst motor and the likely cause in one line.
 std::string quietText(const ValidationResult& result, bool coloured);
 std::string quietText(const SuiteEntry& entry, bool coloured);
