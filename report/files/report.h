@@ -100,8 +100,8 @@ namespace ursula::report {
 std::string sentence(const ValidationResult& result);
 
 /// Returns a result as text for a mail: verdict, size of the deviation and cause; then a line for each group of checks,
-/// with those that did not pass and why; then details of wrong motors. `verbose` gives all checks with value, limit, unit
-/// and share, and the reasons of those that do not apply.
+/// with those that did not pass and why; then details of wrong motors. `verbose` gives all checks with value, limit,
+/// unit and share, and the reasons of those that do not apply.
 std::string validationText(const ValidationResult& result, bool coloured, bool verbose = false);
 
 }  // namespace ursula::report
