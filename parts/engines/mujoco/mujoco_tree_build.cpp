@@ -1,46 +1,17 @@
-// The spanning tree of a mechanism, and its text for MuJoCo. Numbers of inertia are placeholders there, which get
+// The text of a spanning tree for MuJoCo. Numbers of inertia are placeholders there, which get
 // overwritten: MuJoCo refuses bodies without mass, and digits would be lost.
 
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <numeric>
+#include <array>
+#include <stdexcept>
 
-#include "parts/engines/mujoco/mujoco_mechanism_internal.h"
+#include "parts/engines/mujoco/mujoco_tree_internal.h"
 
 namespace ursula::mujoco {
 namespace {
-
-int costOfCutting(const Mechanism& mechanism, std::size_t j) {
-  const MechanismJoint& joint = mechanism.joints()[j];
-  const auto& motors = mechanism.motors();
-  if (std::count(motors.begin(), motors.end(), j) > 0) return 0;
-  if (joint.isLoaded()) return 1;
-  return joint.closure ? 3 : 2;
-}
-
-bool mayBeInTree(const MechanismJoint& joint) {
-  return !joint.isOpen() && joint.kind != JointKind::fixed && joint.kind != JointKind::free;
-}
-
-std::vector<bool> joined(const Mechanism& mechanism, const WeldedMechanism& welded) {
-  const auto& joints = mechanism.joints();
-  std::vector<std::size_t> order(joints.size()), part(welded.welds.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::iota(part.begin(), part.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return costOfCutting(mechanism, a) < costOfCutting(mechanism, b);
-  });
-  std::vector<bool> out(joints.size());
-  for (const std::size_t j : order) {
-    const std::size_t a = part[welded.parentOf(joints[j])], b = part[welded.childOf(joints[j])];
-    if (!mayBeInTree(joints[j]) || a == b) continue;
-    out[j] = true;
-    std::replace(part.begin(), part.end(), b, a);
-  }
-  return out;
-}
 
 std::string numbers(const Vector3d& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
 
@@ -80,50 +51,44 @@ void writeInertia(const WeldedBodies& weld, int body, mjModel& model) {
   Eigen::Map<Vector3d>(model.body_inertia + 3 * body) = principal.eigenvalues();
 }
 
-}  // namespace
+/// A point of each of two welds that coincide, relative to their centres.
+struct Pin {
+  std::size_t a = 0, b = 0;
+  Vector3d on_a = Vector3d::Zero(), on_b = Vector3d::Zero();
+};
 
-WeldTree weldTree(const Mechanism& mechanism, const WeldedMechanism& welded) {
-  const auto& joints = mechanism.joints();
-  const std::vector<bool> in_tree = joined(mechanism, welded);
-  WeldTree out;
-  std::vector<bool> reached(welded.welds.size());
-  std::vector<std::size_t> queue = {0};
-  reached[0] = true;
-  for (std::size_t next = 0;; ++next) {
-    if (next == queue.size()) {  // a part without ground begins at its heaviest weld
-      std::size_t root = 0;
-      for (std::size_t w = 1; w < reached.size(); ++w)
-        if (!reached[w] && (root == 0 || welded.welds[w].mass > welded.welds[root].mass)) root = w;
-      if (root == 0) break;
-      out.steps.push_back({WeldStep::none, 0, root, false});
-      reached[root] = true;
-      queue.push_back(root);
-    }
-    const std::size_t from = queue[next];
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      const std::size_t parent = welded.parentOf(joints[j]), child = welded.childOf(joints[j]);
-      if (!in_tree[j] || (parent != from && child != from)) continue;
-      const std::size_t to = parent == from ? child : parent;
-      if (reached[to]) continue;
-      out.steps.push_back({j, from, to, child == from});
-      reached[to] = true;
-      queue.push_back(to);
-    }
+/// A ball is pinned at one point, a hinge at two points of its axis.
+std::vector<Pin> pinsOf(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree) {
+  std::vector<Pin> out;
+  for (const std::size_t j : tree.cut) {
+    const MechanismJoint& joint = mechanism.joints()[j];
+    Pin pin{welded.parentOf(joint), welded.childOf(joint)};
+    if (joint.kind == JointKind::free || pin.a == pin.b) continue;
+    if (joint.kind != JointKind::ball && joint.kind != JointKind::revolute)
+      throw std::domain_error(fmt::format("its equality constraints do not hold the cut joint {}", joint.name));
+    pin.on_a = joint.centre - welded.welds[pin.a].center;
+    pin.on_b = joint.centre_of_child - welded.welds[pin.b].center;
+    out.push_back(pin);
+    if (joint.kind == JointKind::ball) continue;
+    const Vector3d along = mechanism.length() / 4 * joint.axis[0];
+    pin.on_a += along;
+    pin.on_b += joint.turn.transpose() * along;
+    out.push_back(pin);
   }
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    if (!in_tree[j]) out.cut.push_back(j);
   return out;
 }
 
-int bodyOf(const mjModel& model, std::size_t weld) {
-  return mj_name2id(&model, mjOBJ_BODY, std::to_string(weld).c_str());
-}
+std::string nameOf(std::size_t weld) { return weld == 0 ? "world" : std::to_string(weld); }
 
-Model treeModel(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree) {
+Model parsedTree(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree,
+                 const std::vector<Pin>& pins) {
   std::string text = R"(<mujoco><compiler angle="radian"/><size nstack="200000"/><worldbody>)";
   for (const WeldStep& step : tree.steps)
     if (step.from == 0) text += bodyText(mechanism, welded, tree, step);
-  Model model = parseText(text + "</worldbody></mujoco>");
+  text += "</worldbody><equality>";
+  for (const Pin& pin : pins)
+    text += fmt::format(R"(<connect body1="{}" body2="{}" anchor="0 0 0"/>)", nameOf(pin.a), nameOf(pin.b));
+  Model model = parseText(text + "</equality></mujoco>");
   // Without shortcuts for frames that coincide and inertias that are diagonal in the text.
   std::fill_n(model->body_sameframe, model->nbody, mjtByte{0});
   std::fill_n(model->body_simple, model->nbody, mjtByte{0});
@@ -133,6 +98,31 @@ Model treeModel(const Mechanism& mechanism, const WeldedMechanism& welded, const
   std::copy_n(model->body_mass, model->nbody, model->body_subtreemass);
   for (int b = model->nbody - 1; b > 0; --b)
     model->body_subtreemass[model->body_parentid[b]] += model->body_subtreemass[b];
+  return model;
+}
+
+}  // namespace
+
+int bodyOf(const mjModel& model, std::size_t weld) {
+  return mj_name2id(&model, mjOBJ_BODY, std::to_string(weld).c_str());
+}
+
+Model treeModel(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree) {
+  return parsedTree(mechanism, welded, tree, {});
+}
+
+Model connectedModel(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree, bool hard) {
+  const std::vector<Pin> pins = pinsOf(mechanism, welded, tree);
+  Model model = parsedTree(mechanism, welded, tree, pins);
+  mj_setConst(model.get(), dataOf(*model).get());  // softness counts by the inertias at the reference pose
+  for (std::size_t k = 0; k < pins.size(); ++k) {  // it moves the points, and the text rounds them
+    mjtNum* points = model->eq_data + mjNEQDATA * k;
+    Eigen::Map<Vector3d>{points} = pins[k].on_a;
+    Eigen::Map<Vector3d>{points + 3} = pins[k].on_b;
+    if (!hard) continue;
+    model->eq_solref[mjNREF * k] = 2 * model->opt.timestep;  // MuJoCo raises shorter time constants to two steps
+    std::fill_n(model->eq_solimp + mjNIMP * k, 2, mjMAXIMP);
+  }
   return model;
 }
 
