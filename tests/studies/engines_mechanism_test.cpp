@@ -78,18 +78,24 @@ TEST(EnginesOfMechanisms, seeWhereAMachineIsAnother) {
   }
 }
 
-/// With all at rest a soft closure asks for no force, and mj_inverse answers as an open tree.
+/// With all at rest a soft closure asks for no force, and mj_inverse answers as an open tree. So the closures are where
+/// they should be.
 TEST(EnginesOfMechanisms, atRestSoftLoopsAreAsOpenOnes) {
-  MechanismScenario scenario = shippedMechanism("fivebar");
-  for (const bool is_at_rest : {true, false}) {
-    if (is_at_rest) scenario.trajectory = makeMotorHold(1, scenario.trajectory->at(0).q);
-    const SideBySide found = foundOf(is_at_rest ? scenario : shippedMechanism("fivebar"));
-    const EngineResult* engine = engineOf(found, "MuJoCo");
-    if (engine == nullptr) GTEST_SKIP() << "without MuJoCo";
-    const double off = (engine->of(Recipe::own_inverse).efforts - engine->of(Recipe::open).efforts).norm();
-    EXPECT_EQ(off < 1e-9 * found.largest_effort, is_at_rest) << off;
-    EXPECT_EQ(engine->of(Recipe::no_bias).error < 1e-13, is_at_rest);
-  }
+  const std::string welded = URSULA_SOURCE "/tests/vectors/loops/fourbar_relpose.toml";
+  for (const MechanismScenario& moving :
+       {shippedMechanism("fivebar"), shippedMechanism("delta"), readMechanism(welded)})
+    for (const bool is_at_rest : {true, false}) {
+      SCOPED_TRACE(moving.name);
+      MechanismScenario scenario = moving;
+      if (is_at_rest) scenario.trajectory = makeMotorHold(1, moving.trajectory->at(0.7).q);
+      const SideBySide found = foundOf(scenario);
+      const EngineResult* engine = engineOf(found, "MuJoCo");
+      if (engine == nullptr) GTEST_SKIP() << "without MuJoCo";
+      ASSERT_EQ(engine->of(Recipe::own_inverse).refused, "");
+      const double off = (engine->of(Recipe::own_inverse).efforts - engine->of(Recipe::open).efforts).norm();
+      EXPECT_EQ(off < 1e-9 * found.largest_effort, is_at_rest) << off;
+      EXPECT_EQ(engine->of(Recipe::no_bias).error < 1e-13, is_at_rest);
+    }
 }
 
 /// Loads of all kinds, redundant closures, sliding motors.

@@ -54,22 +54,26 @@ void writeInertia(const WeldedBodies& weld, int body, mjModel& model) {
 /// A point of each of two welds that coincide, relative to their centres.
 struct Pin {
   std::size_t a = 0, b = 0;
+  bool holds_turn = false;
+  Matrix3d turn = Matrix3d::Identity();  ///< of b relative to a, if that is held too
   Vector3d on_a = Vector3d::Zero(), on_b = Vector3d::Zero();
 };
 
-/// A ball is pinned at one point, a hinge at two points of its axis.
+/// A ball is pinned at one point, a hinge at two points of its axis, and a fixed joint is one of MuJoCo's welds.
 std::vector<Pin> pinsOf(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree) {
   std::vector<Pin> out;
   for (const std::size_t j : tree.cut) {
     const MechanismJoint& joint = mechanism.joints()[j];
     Pin pin{welded.parentOf(joint), welded.childOf(joint)};
     if (joint.kind == JointKind::free || pin.a == pin.b) continue;
-    if (joint.kind != JointKind::ball && joint.kind != JointKind::revolute)
+    if (joint.kind == JointKind::prismatic || joint.kind == JointKind::universal)
       throw std::domain_error(fmt::format("its equality constraints do not hold the cut joint {}", joint.name));
     pin.on_a = joint.centre - welded.welds[pin.a].center;
     pin.on_b = joint.centre_of_child - welded.welds[pin.b].center;
+    pin.holds_turn = joint.kind == JointKind::fixed;
+    pin.turn = joint.turn;
     out.push_back(pin);
-    if (joint.kind == JointKind::ball) continue;
+    if (joint.kind != JointKind::revolute) continue;
     const Vector3d along = mechanism.length() / 4 * joint.axis[0];
     pin.on_a += along;
     pin.on_b += joint.turn.transpose() * along;
@@ -87,7 +91,8 @@ Model parsedTree(const Mechanism& mechanism, const WeldedMechanism& welded, cons
     if (step.from == 0) text += bodyText(mechanism, welded, tree, step);
   text += "</worldbody><equality>";
   for (const Pin& pin : pins)
-    text += fmt::format(R"(<connect body1="{}" body2="{}" anchor="0 0 0"/>)", nameOf(pin.a), nameOf(pin.b));
+    text += fmt::format(R"(<{} body1="{}" body2="{}"{}/>)", pin.holds_turn ? "weld" : "connect", nameOf(pin.a),
+                        nameOf(pin.b), pin.holds_turn ? "" : R"( anchor="0 0 0")");
   Model model = parseText(text + "</equality></mujoco>");
   // Without shortcuts for frames that coincide and inertias that are diagonal in the text.
   std::fill_n(model->body_sameframe, model->nbody, mjtByte{0});
@@ -117,8 +122,11 @@ Model connectedModel(const Mechanism& mechanism, const WeldedMechanism& welded, 
   mj_setConst(model.get(), dataOf(*model).get());  // softness counts by the inertias at the reference pose
   for (std::size_t k = 0; k < pins.size(); ++k) {  // it moves the points, and the text rounds them
     mjtNum* points = model->eq_data + mjNEQDATA * k;
-    Eigen::Map<Vector3d>{points} = pins[k].on_a;
-    Eigen::Map<Vector3d>{points + 3} = pins[k].on_b;
+    const bool weld = pins[k].holds_turn;  // of which the second body's point comes first
+    Eigen::Map<Vector3d>{points + (weld ? 3 : 0)} = pins[k].on_a;
+    Eigen::Map<Vector3d>{points + (weld ? 0 : 3)} = pins[k].on_b;
+    const Eigen::Quaterniond turn(pins[k].turn);
+    if (weld) Eigen::Map<Eigen::Vector4d>{points + 6} << turn.w(), turn.vec();
     if (!hard) continue;
     model->eq_solref[mjNREF * k] = 2 * model->opt.timestep;  // MuJoCo raises shorter time constants to two steps
     std::fill_n(model->eq_solimp + mjNIMP * k, 2, mjMAXIMP);

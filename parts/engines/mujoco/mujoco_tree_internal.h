@@ -14,8 +14,8 @@ namespace ursula::mujoco {
 /// The tree in MuJoCo. Body w is weld w, with the world's axes at the reference pose and its origin in the centre.
 Model treeModel(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree);
 int bodyOf(const mjModel& model, std::size_t weld);
-/// The same tree, with the cut joints closed by MuJoCo's own `connect`: at its default softness, or as hard as it
-/// allows. Throws std::domain_error for a joint that is no ball and no hinge.
+/// The same tree, with the cut joints closed by MuJoCo's own `connect` and `weld`: at its default softness, or as hard
+/// as it allows. Throws std::domain_error for a slide or a universal joint.
 Model connectedModel(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree, bool hard);
 
 /// The tree's speeds.
