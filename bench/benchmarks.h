@@ -42,6 +42,8 @@ std::vector<Answers> ownAnswers();
 void registerBatches();
 /// Machines with legs of other kinds.
 void registerLegKinds();
+/// Mechanisms, beside the exact recipe of each engine.
+void registerMechanisms();
 /// Derivatives of the efforts of machines of each kind.
 void registerDerivatives();
 /// Direct-dynamics simulation of the helix.

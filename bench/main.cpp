@@ -44,6 +44,7 @@ int run(int argc, char** argv) {
   registerSideBySide(peers);
   registerBatches();
   registerLegKinds();
+  registerMechanisms();
   registerDirectKinematics();
   registerDerivatives();
   registerSimulations();

@@ -78,6 +78,14 @@ class SimbodyMechanism {
   Eigen::VectorXd accelerations(const Eigen::VectorXd& efforts);
   /// Computes the same by elimination in any case.
   Eigen::VectorXd accelerationsByElimination(const Eigen::VectorXd& efforts);
+  /// How the open tree moves at the last placed or computed accelerations: u = N q̇ and q̇ = S u for its speeds u.
+  struct OpenTree {
+    Eigen::MatrixXd N, S;
+    Eigen::VectorXd u_dot;
+  };
+  OpenTree openTree() const;
+  /// Returns Simbody's residual forces on these speeds for accelerations u̇, less all loads.
+  Eigen::VectorXd residual(const Eigen::VectorXd& u_dot) const;
   /// Returns whether accelerations() uses Simbody's realize(Acceleration).
   bool usesSimbodysOwn() const;
 

@@ -27,6 +27,7 @@ Eigen::VectorXd SimbodyMechanism::Impl::loads(const Eigen::VectorXd* efforts) co
   return out;
 }
 
+// [recipe]
 Eigen::VectorXd SimbodyMechanism::Impl::residual(const SimTK::Vector& accelerations,
                                                  const Eigen::VectorXd& applied) const {
   SimTK::Vector on_joints(state.getNU()), found;
@@ -40,6 +41,24 @@ Eigen::VectorXd SimbodyMechanism::Impl::residual(const SimTK::Vector& accelerati
     out += inertia * (at.J.dot(mapped(accelerations)) + at.bias) * at.J;
   }
   return out;
+}
+// [/recipe]
+
+SimbodyMechanism::OpenTree SimbodyMechanism::openTree() const {
+  Impl& m = *impl_;
+  m.realize(SimTK::Stage::Velocity);
+  if (!m.rates) m.setRatesByMotors(LeastSquares(m.allRows()));
+  OpenTree out{*m.rates, Eigen::MatrixXd(m.motorCount(), m.state.getNU()), mapped(m.u_dot)};
+  for (Eigen::Index k = 0; k < m.motorCount(); ++k)
+    out.S.row(k) = m.row(m.coordinates[static_cast<std::size_t>(k)], false).J;
+  return out;
+}
+
+Eigen::VectorXd SimbodyMechanism::residual(const Eigen::VectorXd& u_dot) const {
+  impl_->realize(SimTK::Stage::Velocity);
+  SimTK::Vector accelerations(static_cast<int>(u_dot.size()));
+  for (int i = 0; i < accelerations.size(); ++i) accelerations[i] = u_dot(i);
+  return impl_->residual(accelerations, impl_->loads(nullptr));
 }
 
 SimTK::Vector SimbodyMechanism::Impl::eliminated(const Eigen::VectorXd& efforts) const {

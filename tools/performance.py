@@ -170,6 +170,7 @@ def kinds(found):
 def others(found):
     lines = ["| what | µs |", "| --- | --- |", f"| joints' motion by the closed forms | {micro(found['kinematics', 'ursula', 1])} |"]
     lines += [f"| direct kinematics: {who} | {micro(entry)} |" for (task, who, _), entry in found.items() if task == "direct_kinematics"]
+    lines += [f"| efforts of a mechanism: {who} | {micro(entry)} |" for (task, who, _), entry in found.items() if task == "inverse_of_mechanism"]
     lines += [f"| simulation of the helix of 3 s to 2e-9 m: {who} | {micro(entry)} |" for (task, who, _), entry in found.items() if task == "simulation"]
     return lines
 

@@ -4,12 +4,11 @@
 #include <memory>
 
 #include "apps/files_apart.h"
+#include "apps/mechanism.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
 #include "base/output_folder.h"
 #include "base/text.h"
-#include "model/mechanism_scenario.h"
-#include "model/scenario_files.h"
 #include "parts/engines/side_by_side/side_by_side.h"
 
 namespace ursula {
@@ -43,21 +42,24 @@ int engines(EnginesOptions options) {
     refuseResults(options.out);
   }
   options.asked.engines = namedEngines(options.engines);
-  if (options.scenario != "-" && isMechanism(scenarioText(options.scenario)))
-    throw UsageError(
-        fmt::format("{}: engines takes scenarios with [manipulator]; `ursula validate` compares the efforts of a "
-                    "[mechanism] in Simbody, MuJoCo and maximal coordinates",
-                    options.scenario));
-  const Scenario scenario = openScenario(options.scenario);
-  if (!options.out.empty()) requireKept(scenario, options.out, {"engines.json", "engines.csv", "report.html"});
+  const auto in = [&](const char* file) { return options.out.empty() ? "" : options.out + "/" + file; };
+  const AnyScenario any =
+      openAny(options.scenario, {in("engines.json"), in("engines.csv"), in("efforts.csv"), in("report.html")});
+  if (any.manipulator && !options.out.empty())
+    requireKept(*any.manipulator, options.out, {"engines.json", "engines.csv", "efforts.csv", "report.html"});
   std::optional<OutputFolder> folder;  // made before the work, so that a folder that cannot be written is found early
   if (!options.out.empty()) folder.emplace(options.out);
-  Progress progress(scenario.name);
+  Progress progress(any.mechanism ? any.mechanism->name : any.manipulator->name);
   options.asked.on_progress = [&progress](double share, const std::string& engine) { progress.at(share, engine); };
-  const SideBySide found = alongMotion(scenario, [&] { return engineSideBySide(scenario, options.asked); });
+  const auto asked = [&options](const auto& scenario) {
+    return [&options, &scenario] { return engineSideBySide(scenario, options.asked); };
+  };
+  const SideBySide found = any.mechanism ? alongLoops(*any.mechanism, asked(*any.mechanism))
+                                         : alongMotion(*any.manipulator, asked(*any.manipulator));
   if (folder) {
     folder->write("engines.json", sideBySideJson(found));
     folder->write("engines.csv", sideBySideCsv(found));
+    folder->write("efforts.csv", effortsCsv(found));
     folder->write("report.html", sideBySideHtml(found));
     folder->commit();
   }

@@ -3,27 +3,17 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "model/load.h"
 #include "model/manipulator.h"
 #include "model/open_tree.h"
+#include "parts/engines/closed_mechanism.h"
+#include "parts/engines/recipe.h"
 
 namespace ursula {
-
-/// A way to get the efforts of a closed loop from an engine. Only the first is right; the others are usual mistakes.
-enum class Recipe {
-  exact,             ///< tree dynamics with multipliers of the loop closures
-  open,              ///< inverse dynamics of the trees without the loops
-  no_bias,           ///< the exact recipe without J̇ u in the joints' accelerations
-  least_squares,     ///< the smallest forces on all coordinates, read at the motors
-  own_inverse,       ///< the engine's own answer with loops of default softness: inverse dynamics, or a driven step
-  own_inverse_hard,  ///< the same with the hardest loops that it allows
-};
-
-/// Returns the enumerator's name, "own_inverse".
-const char* name(Recipe recipe);
 
 /// An engine's setting of the loops' rigidity, in its own names.
 struct Rigidity {
@@ -115,17 +105,26 @@ struct LoopEngineKind {
   const char* exact_call;    ///< completes a sentence as an imperative: "take …, and …"
   const char* obvious_call;  ///< completes a sentence as its subject: "mj_inverse, read at the motors,"
   bool has_own_inverse;
+
+  // --- machines with any closed loops ---
+  std::unique_ptr<MechanismCalls> (*make_mechanism)(const Mechanism& mechanism) = nullptr;
+  const char* loop_call = "";      ///< as exact_call
+  bool in_tree = true;             ///< it has a tree, whose forces can be read at the motors
+  std::string_view code = {};      ///< its calls for that, as they are compiled
+  std::string_view own_code = {};  ///< its calls for own_inverse
 };
 
 // Each engine's folder defines its own.
 using MakeLoopEngine = std::unique_ptr<LoopEngine>(const Manipulator& manipulator, std::shared_ptr<const Load> load);
 MakeLoopEngine makeSimbodyCalls, makeMaximalCalls, makeMujocoCalls;
+std::unique_ptr<MechanismCalls> makeSimbodyMechanism(const Mechanism& mechanism);
 
 /// DART is a module that is loaded on first use, because its libraries slow every start. It exports this under the name
 /// ursula_engine_module.
 struct EngineModule {
   const char* version;  ///< the engine's version, "6.12.1"
   MakeLoopEngine* make;
+  BuildTree* build;
 };
 
 /// All engines. A new one needs a folder beside this file and a row.

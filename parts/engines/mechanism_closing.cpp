@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -65,6 +66,10 @@ Eigen::VectorXd RankedFactors::solveTransposedOnce(const Eigen::VectorXd& b) con
       qr_.colsPermutation().transpose() * b);
   out.applyOnTheLeft(qr_.householderQ());
   return out;
+}
+
+Eigen::VectorXd SpeedsOfWelds::ownInverse(const Eigen::VectorXd&, bool) {
+  throw std::domain_error("it has no inverse dynamics of closed loops");
 }
 
 MechanismClosing::MechanismClosing(const Mechanism& mechanism, const WeldedMechanism& welded,
@@ -198,7 +203,7 @@ void MechanismClosing::moveTo(const MotorMotion& motion) {
   }
 }
 
-void MechanismClosing::place(const MotorMotion& motion) {
+void MechanismClosing::place(const MotorMotion& motion, Bias bias) {
   moveTo(motion);
   factors_ = std::make_unique<RankedFactors>(allRows(motorCount()));
   const auto solved = [&](Eigen::VectorXd right) -> Eigen::VectorXd {
@@ -208,7 +213,8 @@ void MechanismClosing::place(const MotorMotion& motion) {
   right.tail(motorCount()) = motion.qdot;
   u_ = solved(right);
   speeds_.setSpeeds(u_);
-  for (Eigen::Index i = 0; i < rowCount(); ++i) right(i) = -formOf(rows_[static_cast<std::size_t>(i)], true).bias;
+  for (Eigen::Index i = 0; i < rowCount(); ++i)
+    right(i) = bias == Bias::kept ? -formOf(rows_[static_cast<std::size_t>(i)], true).bias : 0;
   for (Eigen::Index k = 0; k < motorCount(); ++k)
     right(rowCount() + k) = motion.qddot(k) - formOf(static_cast<std::size_t>(k), true).bias;
   u_dot_ = solved(right);
@@ -229,10 +235,38 @@ Eigen::VectorXd MechanismClosing::loads() const {
   return out;
 }
 
-Eigen::VectorXd MechanismClosing::effortsByComplement(const Eigen::VectorXd& f) const {
+// [recipe]
+// u = N q̇: S has the motors' rows, G those of the cut joints. Rows are divided and speeds multiplied by the machine's
+// length where they are lengths, so that a pivoted QR factorisation tells redundant closures.
+Eigen::MatrixXd MechanismClosing::complement() const {
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(rowCount() + motorCount(), motorCount());
   for (Eigen::Index k = 0; k < motorCount(); ++k) right(rowCount() + k, k) = 1 / row_scale_(rowCount() + k);
-  return factors_->solve(right).transpose() * column_scale_.cwiseProduct(f);
+  return column_scale_.asDiagonal() * factors_->solve(right);
+}
+
+Eigen::VectorXd MechanismClosing::effortsByComplement(const Eigen::VectorXd& f) const {
+  return complement().transpose() * f;
+}
+// [/recipe]
+
+Eigen::VectorXd MechanismClosing::leastEfforts(const Eigen::VectorXd& f) const {
+  const Eigen::MatrixXd N = complement();
+  return (N.transpose() * N).llt().solve(N.transpose() * f);
+}
+
+Eigen::VectorXd MechanismClosing::atMotors(const Eigen::VectorXd& f) const {
+  Eigen::VectorXd out(motorCount());
+  for (Eigen::Index k = 0; k < out.size(); ++k) {
+    const JointCoordinate& c = coordinates_[static_cast<std::size_t>(k)];
+    const auto own = speeds_.own(c.row.joint, c.index);
+    if (!own) throw std::domain_error(fmt::format("{} is no coordinate of its own", c.joint->name));
+    out(k) = own->sign * f(own->speed);
+  }
+  return out;
+}
+
+double MechanismClosing::gap() const {
+  return rows_.empty() ? 0 : errors(nullptr).cwiseAbs().maxCoeff() * mechanism_.length();
 }
 
 Eigen::VectorXd MechanismClosing::effortsByMultipliers(const Eigen::VectorXd& f) const {

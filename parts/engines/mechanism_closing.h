@@ -37,6 +37,15 @@ class SpeedsOfWelds {
     double sign = 1, value = 0;  ///< value from the reference pose
   };
   virtual std::optional<Own> own(std::size_t joint, int index) const = 0;
+  /// Returns whether coordinates of joints are speeds of its own.
+  virtual bool isTree() const { return true; }
+
+  // --- forces ---
+  /// Returns M u̇ + bias of the placed state; gravity acts on the whole mass of each weld, in its centre.
+  virtual Eigen::VectorXd forces(const Eigen::VectorXd& accelerations) = 0;
+  /// Returns the same by the engine's own inverse dynamics, with its own closures of the cut joints. Throws
+  /// std::domain_error with the reason if it has none for this machine.
+  virtual Eigen::VectorXd ownInverse(const Eigen::VectorXd& accelerations, bool hard);
 };
 
 /// Least squares and least norm by a pivoted QR factorisation; the rank is where the pivots fall the most.
@@ -64,8 +73,12 @@ class MechanismClosing {
   MechanismClosing(const Mechanism& mechanism, const WeldedMechanism& welded, const std::vector<std::size_t>& cut,
                    SpeedsOfWelds& speeds);
 
+  /// Whether the accelerations satisfy G u̇ = −Ġu, or G u̇ = 0 as is often taken.
+  enum class Bias { kept, left_out };
   /// Continues the last configuration, in smaller steps where it must. Throws std::domain_error with a joint's name.
-  void place(const MotorMotion& motion);
+  void place(const MotorMotion& motion, Bias bias = Bias::kept);
+  /// Returns the largest error of a closure, m; angles count by the machine's length.
+  double gap() const;
 
   const Eigen::VectorXd& speeds() const { return u_; }
   const Eigen::VectorXd& accelerations() const { return u_dot_; }
@@ -75,6 +88,10 @@ class MechanismClosing {
   Eigen::VectorXd effortsByComplement(const Eigen::VectorXd& f) const;
   /// Returns the same by multipliers of all rows: Gᵀλ + Sᵀτ = f.
   Eigen::VectorXd effortsByMultipliers(const Eigen::VectorXd& f) const;
+  /// Returns f on the motors' own coordinates. Throws std::domain_error if the speeds have none.
+  Eigen::VectorXd atMotors(const Eigen::VectorXd& f) const;
+  /// Returns the motors' share of the smallest forces that move the machine as f does: (Nᵀ N)⁻¹ Nᵀ f.
+  Eigen::VectorXd leastEfforts(const Eigen::VectorXd& f) const;
 
  private:
   struct Form {
@@ -88,6 +105,8 @@ class MechanismClosing {
   Eigen::MatrixXd allRows(Eigen::Index motors) const;
   Eigen::VectorXd errors(const Eigen::VectorXd* target) const;
   Eigen::VectorXd motorValues() const;
+  /// N of u = N q̇, by S N = 1 and G N = 0.
+  Eigen::MatrixXd complement() const;
   bool newton(const Eigen::VectorXd& target);
   void close();
   void moveTo(const MotorMotion& motion);

@@ -1,17 +1,15 @@
 // The engines that vote on machines with any closed loops, beside Simbody.
 
-#include "parts/engines/maximal/maximal_mechanism.h"
-#include "parts/engines/mujoco/mujoco_mechanism.h"
+#include "parts/engines/closed_mechanism.h"
 #include "parts/engines/voting_engines.h"
 #include "validation/mechanism/validate_mechanism.h"
 
 namespace ursula {
 namespace {
 
-template <class AnEngine>
-std::unique_ptr<MechanismEngine> engineOf(const MechanismScenario& scenario, const char* check, const char* name,
-                                          const char* voice) {
-  auto engine = std::make_shared<AnEngine>(*scenario.mechanism);
+std::unique_ptr<MechanismEngine> engineOf(const MechanismScenario& scenario, BuildTree* build, const char* check,
+                                          const char* name, const char* voice) {
+  const auto engine = std::make_shared<ClosedMechanism>(*scenario.mechanism, build);
   auto out = std::make_unique<MechanismEngine>();
   out->check = check;
   out->voice = voice;
@@ -26,13 +24,13 @@ void addMechanismEngines(std::vector<MakeMechanismEngine>& rows);
 
 void addMechanismEngines(std::vector<MakeMechanismEngine>& rows) {
   rows.push_back([](const MechanismScenario& scenario) {
-    return engineOf<MaximalMechanism>(scenario, "torque.maximal", "maximal coordinates",
-                                      "all bodies in maximal coordinates with Lagrange multipliers");
+    return engineOf(scenario, buildMaximal, "torque.maximal", "maximal coordinates",
+                    "all bodies in maximal coordinates with Lagrange multipliers");
   });
   rows.push_back([](const MechanismScenario& scenario) -> std::unique_ptr<MechanismEngine> {
     if (!mujocoAvailable()) return nullptr;
-    return engineOf<MujocoMechanism>(scenario, "torque.mujoco", "MuJoCo",
-                                     "MuJoCo's tree, its loops closed by the complement");
+    return engineOf(scenario, buildMujoco, "torque.mujoco", "MuJoCo",
+                    "MuJoCo's tree, its loops closed by the complement");
   });
 }
 

@@ -61,12 +61,44 @@ TEST(EnginesVerb, refusesWhatItCannotDo) {
                 });
 }
 
-TEST(EnginesVerb, refusesAMechanism) {
+TEST(EnginesVerb, takesAMechanism) {
   const Program ursula;
-  ursula.write("a.toml", "[mechanism]\nfile = \"a.xml\"\n");
-  const UrsulaRun run = ursula("engines a.toml");
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("engines takes scenarios with [manipulator]"));
+  const std::string call = "engines '" URSULA_SCENARIOS "/mechanisms/fivebar.toml' --samples 5 ";
+  const UrsulaRun run = ursula(call + "--engine simbody,'maximal coordinates' --out found");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("Motors: left up to "));
+  const auto json = nlohmann::json::parse(TemporaryFolder::read(ursula.folder() / "found" / "engines.json"));
+  ASSERT_EQ(json.at("engines").size(), 2u);
+  EXPECT_LE(json.at("engines").at(0).at("efforts").at(0).at("error").get<double>(), 1e-13);
+  EXPECT_EQ(json.at("engines").at(0).at("cut"), nlohmann::json({"pin"}));
+  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "found" / "report.html"), HasSubstr("fivebar.xml"));
+  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "found" / "efforts.csv"), HasSubstr("simbody_exact_tau_2_Nm"));
+  const UrsulaRun judged =
+      ursula("validate '" URSULA_SCENARIOS "/mechanisms/fivebar.toml' --torques found/efforts.csv --quiet");
+  EXPECT_THAT(judged.out, HasSubstr("fivebar: ")) << "the file is one of efforts: " << judged.err;
+  EXPECT_EQ(nlohmann::json::parse(ursula(call + "--json").out).at("model"), "fivebar.xml");
+}
+
+TEST(EnginesVerb, refusesAMechanismThatCannotMove) {
+  const Program ursula;
+  const auto changed = [](const std::string& from, const std::string& to) {
+    std::string text = Program::shipped("mechanisms/fivebar.toml");
+    text.replace(text.find(from), from.size(), to);
+    const std::string file = "\"fivebar.xml\"";
+    if (const std::size_t at = text.find(file); at != std::string::npos)
+      text.replace(at, file.size(), "\"" URSULA_SCENARIOS "/mechanisms/fivebar.xml\"");
+    return text;
+  };
+  ursula.write("nofile.toml", changed("fivebar.xml", "nowhere.xml"));
+  ursula.write("motors.toml", changed("\"left\", \"right\"", "\"left\""));
+  ursula.write("far.toml", [] {
+    std::string text = Program::shipped("mechanisms/delta.toml");
+    text.replace(text.find("delta.xml"), 9, URSULA_SCENARIOS "/mechanisms/delta.xml");
+    return text.replace(text.find("sin = [0.2,"), 11, "sin = [3.2,");
+  }());
+  expectRefused(ursula, {{"engines nofile.toml --out out", "nowhere.xml"},
+                         {"engines motors.toml --out out", "motors.toml"},
+                         {"engines far.toml --out out", "far.toml"}});
 }
 
 }  // namespace

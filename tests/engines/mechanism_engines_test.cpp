@@ -11,13 +11,19 @@
 #include <vector>
 
 #include "base/csv.h"
-#include "parts/engines/maximal/maximal_mechanism.h"
-#include "parts/engines/mujoco/mujoco_mechanism.h"
+#include "parts/engines/closed_mechanism.h"
 #include "parts/engines/voting_engines.h"
 #include "tests/engines/loop_rows.h"
 
 namespace ursula {
 namespace {
+
+struct Maximal {
+  static constexpr BuildTree* build = buildMaximal;
+};
+struct Mujoco {
+  static constexpr BuildTree* build = buildMujoco;
+};
 
 /// Rounding in some 100 constraints, times a condition number below 1e2 of these machines.
 constexpr double room = 1e-11;
@@ -25,7 +31,7 @@ constexpr double room = 1e-11;
 /// The largest error of efforts, relative to the largest effort.
 template <class AnEngine>
 double errorOf(const MechanismParameters& machine, const std::vector<LoopRow>& rows) {
-  AnEngine engine{Mechanism(machine)};
+  ClosedMechanism engine(Mechanism(machine), AnEngine::build);
   double worst = 0, largest = 0;
   for (const LoopRow& row : rows) {
     const Eigen::VectorXd difference = engine.inverseDynamics(row.motion) - row.efforts;
@@ -39,10 +45,10 @@ template <class AnEngine>
 class MechanismEngines : public testing::Test {
  protected:
   void SetUp() override {
-    if (std::is_same_v<AnEngine, MujocoMechanism> && !mujocoAvailable()) GTEST_SKIP() << "without MuJoCo";
+    if (std::is_same_v<AnEngine, Mujoco> && !mujocoAvailable()) GTEST_SKIP() << "without MuJoCo";
   }
 };
-using AllEngines = testing::Types<MaximalMechanism, MujocoMechanism>;
+using AllEngines = testing::Types<Maximal, Mujoco>;
 TYPED_TEST_SUITE(MechanismEngines, AllEngines);
 
 constexpr const char* machines[] = {"fourbar", "planar3rrr", "ankle", "delta"};

@@ -159,14 +159,14 @@ MechanismSample nocAt(const LoopMotion& motion, double t, LoopWork& work) {
 }
 
 /// Adds what Simbody, the other engines and direct dynamics say of a sample; `work` is at its instant.
-void addEngines(const std::vector<char>& idle, bool direct, LoopWork& work, SimbodyMechanism& simbody,
-                const MechanismEvidence& evidence, MechanismSample& sample) {
+void addEngines(const std::vector<char>& idle, bool direct, LoopWork& work, const MechanismEvidence& evidence,
+                MechanismSample& sample) {
   const Mechanism& mechanism = *evidence.scenario->mechanism;
   const LoopSolver& solver = evidence.motion->solver();
   sample.output = work.bodies[mechanism.output()].displacement * mechanism.bodies()[mechanism.output()].frame;
-  simbody.place(sample.motion);
-  compareBodies(simbody, work, mechanism.length(), idle, sample);
   for (const MechanismEngine& engine : evidence.engines) sample.engines.push_back(engine.efforts(sample.motion));
+  SimbodyMechanism& simbody = evidence.placed();
+  compareBodies(simbody, work, mechanism.length(), idle, sample);
   sample.acceleration = simbody.accelerations(sample.subject);
   sample.inverse_inertia = solver.inertia(work).inverse();
   sample.across = acrossOf(mechanism, work);
@@ -213,7 +213,6 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
   const std::vector<double> instants = judgedInstants(scenario, subject);
   std::vector<MotorEfforts> answers;
   if (subject.answers) answers = answersOf(subject, motion, instants, deadline);
-  SimbodyMechanism simbody(mechanism);
   for (const MakeMechanismEngine& make : makers)
     if (auto engine = make(scenario)) out.engines.push_back(std::move(*engine));
   const std::vector<char> idle = idleBodies(motion.solver());
@@ -226,13 +225,13 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
     sample.given = subject.given ? subject.given->precision[i] : MotorEfforts::Zero(sample.noc.size());
     if (subject.given && !subject.given->time_precision.empty())
       sample.given += changeWithin(motion, instants[i], subject.given->time_precision[i], sample.noc);
-    addEngines(idle, subject.isNoc(), work, simbody, out, sample);
+    addEngines(idle, subject.isNoc(), work, out, sample);
     out.largest = std::max(out.largest, sample.noc.cwiseProduct(out.efforts_in).cwiseAbs().maxCoeff());
     out.samples.push_back(std::move(sample));
   }
   setCover(instants, motion.trajectory().duration(), out);
   if (!subject.given) askBetween(subject, deadline, out);
-  measureLevels(simbody, out);
+  measureLevels(out);
   if (subject.isNoc()) out.invariances = askInvariances(scenario, motion);
   return out;
 }

@@ -54,6 +54,8 @@ struct MechanismEngine {
   std::string voice;   ///< "Simbody, other joints cut"
   std::string engine;  ///< as in CheckRow::engine
   std::function<MotorEfforts(const MotorMotion&)> efforts;
+  /// Set for one engine: the loop that its efforts place, of which bodies and accelerations are asked then.
+  std::shared_ptr<SimbodyMechanism> placed;
   /// Its rounding in units of MechanismEvidence::shape, measured with inputs changed by one rounding.
   double level = 0;
 };
@@ -125,6 +127,8 @@ struct MechanismEvidence {
   }
   /// What errors of one unit of shape in all efforts change of the motors' accelerations.
   MotorEfforts response(const MechanismSample& sample) const;
+  /// The loop that the engines' efforts have placed. Throws std::logic_error if no engine has one.
+  SimbodyMechanism& placed() const;
   /// The largest level of Simbody's trees.
   double levelOfSimbody() const;
 };
@@ -135,7 +139,7 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
                                   const Deadline& deadline, const std::function<void(double share)>& progress);
 
 /// Sets the levels: how efforts and accelerations change if their inputs change by one rounding.
-void measureLevels(SimbodyMechanism& simbody, MechanismEvidence& evidence);
+void measureLevels(MechanismEvidence& evidence);
 
 /// Runs the replays; `efforts` are those of the subject at any instant.
 void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const Deadline& deadline,

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "simbody/simbody_mechanism.h"
 #include "validation/mechanism/mechanism_evidence.h"
@@ -14,6 +15,12 @@ MotorEfforts MechanismEvidence::response(const MechanismSample& sample) const {
   MotorEfforts each(sample.scale.size());
   for (Eigen::Index k = 0; k < each.size(); ++k) each(k) = shape(sample, k) / efforts_in(k);
   return sample.inverse_inertia.cwiseAbs() * each;
+}
+
+SimbodyMechanism& MechanismEvidence::placed() const {
+  for (const MechanismEngine& engine : engines)
+    if (engine.placed) return *engine.placed;
+  throw std::logic_error("no engine has placed a loop");
 }
 
 double MechanismEvidence::levelOfSimbody() const {
@@ -64,7 +71,7 @@ void measureMotion(const MechanismSample& sample, const MotorMotion& moved, Mech
 
 }  // namespace
 
-void measureLevels(SimbodyMechanism& simbody, MechanismEvidence& evidence) {
+void measureLevels(MechanismEvidence& evidence) {
   for (const MechanismSample* sample : someOf(evidence.samples)) {
     const MotorMotion moved = movedByRounding(sample->motion);
     measureMotion(*sample, moved, evidence);
@@ -75,8 +82,7 @@ void measureLevels(SimbodyMechanism& simbody, MechanismEvidence& evidence) {
         if (const double shape = evidence.shape(*sample, k); shape > 0)
           engine.level = std::max(engine.level, safety * std::abs(change(k)) * evidence.efforts_in(k) / shape);
     }
-    simbody.place(moved);
-    const MotorEfforts change = simbody.accelerations(sample->subject) - sample->acceleration;
+    const MotorEfforts change = evidence.placed().accelerations(sample->subject) - sample->acceleration;
     const MotorEfforts response = evidence.response(*sample);
     for (Eigen::Index k = 0; k < change.size(); ++k)
       if (response(k) > 0)

@@ -49,6 +49,7 @@ MakeMechanismEngine simbodyEngine(SimbodyMechanism::Tree tree, const char* check
     out->check = check;
     out->voice = voice;
     out->engine = "Simbody";
+    if (tree == SimbodyMechanism::Tree::other) out->placed = loop;
     out->efforts = [loop](const MotorMotion& motion) {
       loop->place(motion);
       return MotorEfforts(loop->inverseDynamics());

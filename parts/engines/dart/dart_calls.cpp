@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "parts/engines/dart/dart_machine_internal.h"
+#include "parts/engines/dart/dart_tree_internal.h"
 
 namespace ursula {
 namespace {
@@ -72,4 +73,4 @@ std::unique_ptr<LoopEngine> makeCalls(const Manipulator& manipulator, std::share
 }  // namespace ursula
 
 extern "C" __attribute__((visibility("default")))
-const ursula::EngineModule ursula_engine_module = {DART_VERSION, ursula::makeCalls};
+const ursula::EngineModule ursula_engine_module = {DART_VERSION, ursula::makeCalls, ursula::dart_engine::buildTree};

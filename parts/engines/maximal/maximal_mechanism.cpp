@@ -1,8 +1,7 @@
-#include "parts/engines/maximal/maximal_mechanism.h"
-
+#include <Eigen/Geometry>
 #include <numeric>
 
-#include "parts/engines/mechanism_closing.h"
+#include "parts/engines/closed_mechanism.h"
 
 namespace ursula {
 namespace maximal {
@@ -10,7 +9,8 @@ namespace maximal {
 /// Six speeds of each weld but the ground: [ω; v of the centre].
 class FreeWelds : public SpeedsOfWelds {
  public:
-  explicit FreeWelds(const WeldedMechanism& welded) : now_(welded.welds.size()) {
+  FreeWelds(const WeldedMechanism& welded, const Vector3d& gravity)
+      : welded_(welded), gravity_(gravity), now_(welded.welds.size()) {
     for (std::size_t b = 0; b < now_.size(); ++b) now_[b].state.c = welded.welds[b].center - welded.welds[0].center;
   }
 
@@ -41,54 +41,39 @@ class FreeWelds : public SpeedsOfWelds {
   }
   Vector6d bias(std::size_t) const override { return Vector6d::Zero(); }
   std::optional<Own> own(std::size_t, int) const override { return std::nullopt; }
+  bool isTree() const override { return false; }
+
+  // [recipe]
+  Eigen::VectorXd forces(const Eigen::VectorXd& accelerations) override {
+    Eigen::VectorXd f(count());
+    for (std::size_t b = 1; b < now_.size(); ++b) {
+      const WeldState& at = now_[b].state;
+      const Matrix3d I = at.R * welded_.welds[b].inertia * at.R.transpose();
+      const Vector6d rate = accelerations.segment<6>(first(b));
+      f.segment<3>(first(b)) = I * rate.head<3>() + at.w.cross(I * at.w);
+      f.segment<3>(first(b) + 3) = welded_.welds[b].mass * (rate.tail<3>() - gravity_);
+    }
+    return f;
+  }
+  // [/recipe]
 
  private:
   struct Now {
     WeldState state;
     Eigen::Quaterniond Q = Eigen::Quaterniond::Identity();
   };
+  const WeldedMechanism& welded_;
+  Vector3d gravity_;
   std::vector<Now> now_, kept_;
 };
 
-inline std::vector<std::size_t> allJoints(const Mechanism& mechanism) {
-  std::vector<std::size_t> out(mechanism.joints().size());
-  std::iota(out.begin(), out.end(), std::size_t{0});
-  return out;
-}
-
 }  // namespace maximal
 
-struct MaximalMechanism::Impl {
-  explicit Impl(const Mechanism& of)
-      : mechanism(of),
-        welded(mechanism),
-        speeds(welded),
-        closing(mechanism, welded, maximal::allJoints(mechanism), speeds) {}
-
-  Mechanism mechanism;
-  WeldedMechanism welded;
-  maximal::FreeWelds speeds;
-  MechanismClosing closing;
-};
-
-MaximalMechanism::MaximalMechanism(const Mechanism& mechanism) : impl_(std::make_unique<Impl>(mechanism)) {}
-MaximalMechanism::~MaximalMechanism() = default;
-
-Eigen::VectorXd MaximalMechanism::inverseDynamics(const MotorMotion& motion) {
-  Impl& m = *impl_;
-  m.closing.place(motion);
-  Eigen::VectorXd f = -m.closing.loads();
-  for (std::size_t b = 1; b < m.welded.welds.size(); ++b) {
-    const WeldedBodies& weld = m.welded.welds[b];
-    const WeldState& state = m.speeds.state(b);
-    const Vector6d rate = m.closing.accelerations().segment<6>(maximal::FreeWelds::first(b));
-    const Matrix3d I = state.R * weld.inertia * state.R.transpose();
-    const Vector3d weight = weld.weight * m.mechanism.gravity();
-    f.segment<3>(maximal::FreeWelds::first(b)) +=
-        I * rate.head<3>() + state.w.cross(I * state.w) - (state.R * weld.weight_arm).cross(weight);
-    f.segment<3>(maximal::FreeWelds::first(b) + 3) += weld.mass * rate.tail<3>() - weight;
-  }
-  return m.closing.effortsByMultipliers(f);
+BuiltTree buildMaximal(const Mechanism& mechanism, const WeldedMechanism& welded) {
+  BuiltTree out{std::make_unique<maximal::FreeWelds>(welded, mechanism.gravity()), {}};
+  out.cut.resize(mechanism.joints().size());
+  std::iota(out.cut.begin(), out.cut.end(), std::size_t{0});
+  return out;
 }
 
 }  // namespace ursula

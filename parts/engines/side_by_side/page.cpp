@@ -10,28 +10,35 @@
 
 namespace ursula {
 
-extern const std::string_view engines_efforts_html, engines_in_time_html, engines_sentences_html;
+extern const std::string_view engines_efforts_html, engines_in_time_html, engines_sentences_html, engines_code_html;
+extern const std::string_view closing_recipe_code;
 
 namespace {
 
 using report::HtmlValue, report::quantity, report::rendered;
 
-std::string nameOf(const EngineResult& engine) { return fmt::format("{} {}", engine.kind->name, engine.version); }
+std::string nameOf(const EngineResult& engine) {
+  return engine.version.empty() ? engine.kind->name : fmt::format("{} {}", engine.kind->name, engine.version);
+}
 
-HtmlValue effortRow(const EngineResult& engine, const RecipeResult& each) {
+HtmlValue effortRow(const SideBySide& found, const EngineResult& engine, const RecipeResult& each) {
+  const bool has_answer = each.refused.empty();
+  const auto only = [has_answer](const std::string& text) { return has_answer ? text : std::string(); };
   return {{"engine", nameOf(engine)},
           {"recipe", inWords(each.recipe)},
           {"obvious", each.recipe == engine.kind->obvious},
-          {"effort", errorText(each.error)},
-          {"power", errorText(each.power)},
-          {"gap", quantity(engine.gap, "m")},
-          {"time", quantity(each.seconds, "s")}};
+          {"refused", each.refused},
+          {"effort", only(errorText(each.error))},
+          {"worst", only(worstText(each, found))},
+          {"power", only(errorText(each.power))},
+          {"gap", only(quantity(engine.gap, "m"))},
+          {"time", only(quantity(each.seconds, "s"))}};
 }
 
 std::string effortsTable(const SideBySide& found) {
   std::vector<HtmlValue> rows;
   for (const EngineResult& engine : found.engines)
-    for (const RecipeResult& each : engine.recipes) rows.push_back(effortRow(engine, each));
+    for (const RecipeResult& each : engine.recipes) rows.push_back(effortRow(found, engine, each));
   if (rows.empty()) return "";
   const std::string caption = fmt::format(
       "Efforts against the NOC's at {} instants, over the largest effort, {}; power of the motors, over the largest; "
@@ -74,6 +81,22 @@ std::string inTimeTable(const SideBySide& found) {
   return rendered(engines_in_time_html, {{"caption", caption}, {"rows", rows}}) + "\n";
 }
 
+/// The engines' calls for a mechanism as they are compiled into this program.
+std::string codeBlocks(const SideBySide& found) {
+  if (found.model.empty()) return "";
+  std::vector<HtmlValue> blocks;
+  const auto add = [&](const std::string& title, std::string_view code) {
+    if (!code.empty()) blocks.push_back({{"title", title}, {"code", std::string(code)}});
+  };
+  for (const EngineResult& engine : found.engines) {
+    add(fmt::format("{}: forces on the speeds of its tree{}", nameOf(engine), cutText(engine, "; ")),
+        engine.kind->code);
+    add(fmt::format("{}: what its users call first", nameOf(engine)), engine.kind->own_code);
+  }
+  add("All: from these forces to the motors", closing_recipe_code);
+  return rendered(engines_code_html, {{"blocks", blocks}}) + "\n";
+}
+
 std::string sentences(const SideBySide& found) {
   std::vector<std::string> out;
   for (const EngineResult& engine : found.engines) out.push_back(sentence(engine));
@@ -87,13 +110,17 @@ std::string sideBySideHtml(const SideBySide& found) {
   report::Page page;
   page.kind = "Engines side by side";
   page.title = found.scenario;
-  page.subtitle = "efforts of the motors by each engine, against the closed form";
+  page.subtitle = found.model.empty() ? "efforts of the motors by each engine, against the closed form"
+                                      : "efforts of the motors by each engine, against the complement of the loops";
   page.sentence = sentence(found);
+  page.remarks = remarks(found);
   page.sections = {{"right", "How to get it right, and how wrong the obvious call is", sentences(found)},
                    {"efforts", "Efforts", effortsTable(found)},
+                   {"code", "The exact recipe in each engine's own calls", codeBlocks(found)},
                    {"time", "The closed loop in time", inTimeTable(found)}};
   page.footer =
-      "<p>The same in numbers: <a href=\"engines.json\">engines.json</a>, <a href=\"engines.csv\">engines.csv</a>. "
+      "<p>The same in numbers: <a href=\"engines.json\">engines.json</a>, <a href=\"engines.csv\">engines.csv</a>; "
+      "all efforts: <a href=\"efforts.csv\">efforts.csv</a>. "
       "Times are of one machine and one run.</p>";
   return report::pageHtml(page);
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "model/mechanism_scenario.h"
 #include "model/scenario.h"
 #include "nocsolver/noc/noc.h"
 #include "parts/engines/loop_engine.h"
@@ -13,11 +14,14 @@ namespace ursula {
 /// Efforts by one recipe, compared with the NOC's.
 struct RecipeResult {
   Recipe recipe = Recipe::exact;
-  double error = 0;    ///< largest deviation divided by the motion's largest effort in that motor's unit
-  double at = 0;       ///< instant of that deviation, s
-  int motor = 0;       ///< its motor, 0-based
-  double power = 0;    ///< largest deviation of the motors' power divided by their largest power; NaN at rest
-  double seconds = 0;  ///< median measured time of a pose
+  double error = 0;         ///< largest deviation divided by the motion's largest effort in that motor's unit
+  double at = 0;            ///< instant of that deviation, s
+  int motor = 0;            ///< its motor, 0-based
+  double deviation = 0;     ///< that deviation, N·m or N
+  double power = 0;         ///< largest deviation of the motors' power divided by their largest power; NaN at rest
+  double seconds = 0;       ///< median measured time of a pose
+  std::string refused;      ///< reason why the engine has no such answer; the rest is empty then
+  Eigen::MatrixXd efforts;  ///< instants × motors
 };
 
 /// The engine moves the closed loop under the NOC's efforts. Gap, sag and away are the largest over that time.
@@ -37,6 +41,7 @@ struct EngineResult {
   const LoopEngineKind* kind = nullptr;
   std::string version;
   std::string refused;                      ///< reason why the engine refuses this machine
+  std::vector<std::string> cut;             ///< joints at which its tree is cut; of a mechanism
   double gap = 0;                           ///< largest gap of the loops at the poses asked for, m
   std::vector<RecipeResult> recipes;        ///< the exact one first
   std::vector<TimeSteppingResult> in_time;  ///< the default rigidity first
@@ -45,8 +50,17 @@ struct EngineResult {
 };
 
 struct SideBySide {
+  struct Motor {
+    std::string name, unit;  ///< "crank_hinge", "N m"
+    double largest = 0;      ///< effort
+  };
+
   std::string scenario;
+  std::string model;  ///< the file of a mechanism; the engines build its parameters, not the file
   int instants = 0;
+  std::vector<Motor> motors;
+  std::vector<double> t;    ///< s
+  Eigen::MatrixXd efforts;  ///< of the NOC, instants × motors
   double largest_effort = 0;
   std::string unit;          ///< "N m", or "N" if all motors slide
   double largest_force = 0;  ///< largest force beside the largest torque, N; 0 unless there are motors of both kinds
@@ -66,6 +80,8 @@ struct SideBySideOptions {
 /// be made, and std::runtime_error if it needs no efforts. An engine that refuses the machine becomes an entry with the
 /// reason.
 SideBySide engineSideBySide(const Scenario& scenario, const SideBySideOptions& options);
+/// Asks for a mechanism. Throws LoopError if the loops cannot follow, ScenarioError for a wrong number of motors.
+SideBySide engineSideBySide(const MechanismScenario& scenario, const SideBySideOptions& options);
 
 /// Accepts "mujoco" and "MuJoCo"; returns null for an unknown name.
 const LoopEngineKind* loopEngineNamed(const std::string& name);
@@ -75,18 +91,28 @@ std::string sentence(const EngineResult& engine);
 /// Sums up all engines.
 std::string sentence(const SideBySide& found);
 std::string sentenceOfMissing(const LoopEngineKind& kind);
-/// Returns "12 %", or the share itself if it is below a millionth.
+/// Returns "12 %", "230 times", or the share itself if it is below a millionth.
 std::string errorText(double error);
 /// Returns "203 N", or "4.14 kN·m and 812 N" for motors of both kinds.
 std::string largestText(const SideBySide& found);
 /// Returns the recipe in words, "loops left open".
 const char* inWords(Recipe recipe);
+/// Returns the motor and instant of the largest deviation: "crank by 0.3 N·m at 0.4 s".
+std::string worstText(const RecipeResult& found, const SideBySide& in);
+/// Returns `before` and where the engine's tree is cut; empty for a manipulator.
+std::string cutText(const EngineResult& engine, const char* before);
+/// Returns what there is to say about a mechanism's motors and file.
+std::vector<std::string> remarks(const SideBySide& found);
+/// Returns how to be right with the engine, as an imperative.
+const char* exactCall(const EngineResult& engine);
 
 /// Returns text for a terminal.
 std::string sideBySideText(const SideBySide& found);
 std::string sideBySideJson(const SideBySide& found);
 /// Returns a row for each recipe and each rigidity, with blank cells for quantities that do not apply.
 std::string sideBySideCsv(const SideBySide& found);
+/// Returns the efforts of the NOC, then those of each engine's recipes: tau_1_Nm, mujoco_exact_tau_1_Nm.
+std::string effortsCsv(const SideBySide& found);
 /// Returns one page that needs no network.
 std::string sideBySideHtml(const SideBySide& found);
 

@@ -1,36 +1,28 @@
 #pragma once
 
-// Internals of MujocoMechanism; only mujoco_mechanism*.cpp include it.
+// Only mujoco_tree*.cpp include it.
 
+#include <array>
 #include <vector>
 
 #include "parts/engines/mechanism_closing.h"
-#include "parts/engines/mujoco/mujoco_mechanism.h"
 #include "parts/engines/mujoco/mujoco_text_internal.h"
+#include "parts/engines/weld_tree.h"
 
 namespace ursula::mujoco {
-
-/// A step of the spanning tree of welds, outwards. Without a joint the weld is free.
-struct WeldStep {
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
-  std::size_t joint = none, from = 0, to = 0;
-  bool reversed = false;  ///< from the joint's child to its parent
-};
-struct WeldTree {
-  std::vector<WeldStep> steps;
-  std::vector<std::size_t> cut;
-};
-/// Motors and loaded joints are in the tree before others, closures last; open joints never.
-WeldTree weldTree(const Mechanism& mechanism, const WeldedMechanism& welded);
 
 /// The tree in MuJoCo. Body w is weld w, with the world's axes at the reference pose and its origin in the centre.
 Model treeModel(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree);
 int bodyOf(const mjModel& model, std::size_t weld);
+/// The same tree, with the cut joints closed by MuJoCo's own `connect` and `weld`: at its default softness, or as hard
+/// as it allows. Throws std::domain_error for a slide or a universal joint.
+Model connectedModel(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree, bool hard);
 
 /// The tree's speeds.
 class TreeSpeeds : public SpeedsOfWelds {
  public:
-  TreeSpeeds(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree);
+  /// Keeps its first two arguments.
+  TreeSpeeds(const Mechanism& mechanism, const WeldedMechanism& welded, WeldTree tree);
 
   Eigen::Index count() const override { return model_->nv; }
   bool isLinear(Eigen::Index i) const override;
@@ -42,9 +34,8 @@ class TreeSpeeds : public SpeedsOfWelds {
   void addRow(std::size_t weld, const Vector6d& factors, Eigen::VectorXd& row) const override;
   Vector6d bias(std::size_t weld) const override { return biases_[weld]; }
   std::optional<Own> own(std::size_t joint, int index) const override;
-
-  /// Returns M u̇ + bias of the placed state, with gravity on bodies that have weight.
-  Eigen::VectorXd forces(const Eigen::VectorXd& accelerations);
+  Eigen::VectorXd forces(const Eigen::VectorXd& accelerations) override;
+  Eigen::VectorXd ownInverse(const Eigen::VectorXd& accelerations, bool hard) override;
 
  private:
   using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
@@ -55,8 +46,14 @@ class TreeSpeeds : public SpeedsOfWelds {
   };
   void readPose();
 
-  Vector3d gravity_;
+  struct Connected {
+    Model model;
+    Data data;
+  };
+
+  const Mechanism& mechanism_;
   const WeldedMechanism& welded_;
+  WeldTree tree_;
   Model model_;
   Data data_;
   std::vector<OfTree> of_tree_;  ///< of each joint of the mechanism
@@ -65,6 +62,7 @@ class TreeSpeeds : public SpeedsOfWelds {
   std::vector<Jacobian> jacobians_;
   std::vector<Vector6d> biases_;
   std::vector<double> kept_;
+  std::array<Connected, 2> connected_;  ///< soft and hard; made on first use
 };
 
 }  // namespace ursula::mujoco

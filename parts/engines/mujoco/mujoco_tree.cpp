@@ -1,24 +1,24 @@
-#include "parts/engines/mujoco/mujoco_mechanism.h"
-
 #include <algorithm>
-#include <array>
+#include <utility>
 
-#include "parts/engines/mujoco/mujoco_mechanism_internal.h"
+#include "parts/engines/closed_mechanism.h"
+#include "parts/engines/mujoco/mujoco_tree_internal.h"
 
 namespace ursula {
 namespace mujoco {
 
-TreeSpeeds::TreeSpeeds(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree)
-    : gravity_(mechanism.gravity()),
+TreeSpeeds::TreeSpeeds(const Mechanism& mechanism, const WeldedMechanism& welded, WeldTree tree)
+    : mechanism_(mechanism),
       welded_(welded),
-      model_(treeModel(mechanism, welded, tree)),
+      tree_(std::move(tree)),
+      model_(treeModel(mechanism, welded, tree_)),
       data_(dataOf(*model_)),
       of_tree_(mechanism.joints().size()),
       bodies_(welded.welds.size()),
       states_(welded.welds.size()),
       jacobians_(states_.size()),
       biases_(states_.size(), Vector6d::Zero()) {
-  for (const WeldStep& step : tree.steps) {
+  for (const WeldStep& step : tree_.steps) {
     const int body = bodies_[step.to] = bodyOf(*model_, step.to);
     if (step.joint != WeldStep::none)
       of_tree_[step.joint] = {model_->body_jntadr[body], model_->body_jntnum[body], step.reversed};
@@ -41,6 +41,19 @@ void TreeSpeeds::goBack() {
   readPose();
 }
 
+void TreeSpeeds::addRow(std::size_t weld, const Vector6d& factors, Eigen::VectorXd& row) const {
+  if (weld != 0) row += jacobians_[weld].transpose() * factors;
+}
+
+std::optional<SpeedsOfWelds::Own> TreeSpeeds::own(std::size_t joint, int index) const {
+  const OfTree& at = of_tree_[joint];
+  if (at.joint < 0 || model_->jnt_type[at.joint] == mjJNT_BALL) return std::nullopt;
+  const int in_model = at.joint + (at.reversed ? at.count - 1 - index : index);
+  const double sign = at.reversed ? -1 : 1;
+  return Own{model_->jnt_dofadr[in_model], sign, sign * data_->qpos[model_->jnt_qposadr[in_model]]};
+}
+
+// [recipe]
 void TreeSpeeds::readPose() {
   using RowMajor = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
   mj_kinematics(model_.get(), data_.get());
@@ -67,60 +80,37 @@ void TreeSpeeds::setSpeeds(const Eigen::VectorXd& u) {
     states_[w].v = twist.tail<3>();
     const int body = bodies_[w];
     mj_objectAcceleration(model_.get(), data_.get(), mjOBJ_XBODY, body, biases_[w].data(), 0);
-    biases_[w].tail<3>() += gravity_;  // MuJoCo's world accelerates upwards
+    biases_[w].tail<3>() += mechanism_.gravity();  // MuJoCo's world accelerates upwards
   }
-}
-
-void TreeSpeeds::addRow(std::size_t weld, const Vector6d& factors, Eigen::VectorXd& row) const {
-  if (weld != 0) row += jacobians_[weld].transpose() * factors;
-}
-
-std::optional<SpeedsOfWelds::Own> TreeSpeeds::own(std::size_t joint, int index) const {
-  const OfTree& at = of_tree_[joint];
-  if (at.joint < 0 || model_->jnt_type[at.joint] == mjJNT_BALL) return std::nullopt;
-  const int in_model = at.joint + (at.reversed ? at.count - 1 - index : index);
-  const double sign = at.reversed ? -1 : 1;
-  return Own{model_->jnt_dofadr[in_model], sign, sign * data_->qpos[model_->jnt_qposadr[in_model]]};
 }
 
 Eigen::VectorXd TreeSpeeds::forces(const Eigen::VectorXd& accelerations) {
   std::copy_n(accelerations.data(), accelerations.size(), data_->qacc);
   Eigen::VectorXd out(count());
   mj_rne(model_.get(), data_.get(), 1, out.data());
-  for (std::size_t w = 1; w < states_.size(); ++w) {  // MuJoCo weighs the whole mass, in its centre
-    const WeldedBodies& weld = welded_.welds[w];
-    if (weld.weight == weld.mass) continue;
-    Vector6d missing;
-    missing << -(states_[w].R * weld.weight_arm).cross(weld.weight * gravity_), (weld.mass - weld.weight) * gravity_;
-    out += jacobians_[w].transpose() * missing;
-  }
   return out;
 }
+// [/recipe]
+
+// [own]
+Eigen::VectorXd TreeSpeeds::ownInverse(const Eigen::VectorXd& accelerations, bool hard) {
+  Connected& own = connected_[hard ? 1 : 0];
+  if (!own.model) own.model = connectedModel(mechanism_, welded_, tree_, hard);
+  if (!own.data) own.data = dataOf(*own.model);
+  std::copy_n(data_->qpos, model_->nq, own.data->qpos);
+  std::copy_n(data_->qvel, model_->nv, own.data->qvel);
+  std::copy_n(accelerations.data(), accelerations.size(), own.data->qacc);
+  mj_inverse(own.model.get(), own.data.get());
+  return Eigen::Map<const Eigen::VectorXd>(own.data->qfrc_inverse, count());
+}
+// [/own]
 
 }  // namespace mujoco
 
-struct MujocoMechanism::Impl {
-  explicit Impl(const Mechanism& of)
-      : mechanism(of),
-        welded(mechanism),
-        tree(mujoco::weldTree(mechanism, welded)),
-        speeds(mechanism, welded, tree),
-        closing(mechanism, welded, tree.cut, speeds) {}
-
-  Mechanism mechanism;
-  WeldedMechanism welded;
-  mujoco::WeldTree tree;
-  mujoco::TreeSpeeds speeds;
-  MechanismClosing closing;
-};
-
-MujocoMechanism::MujocoMechanism(const Mechanism& mechanism) : impl_(std::make_unique<Impl>(mechanism)) {}
-MujocoMechanism::~MujocoMechanism() = default;
-
-Eigen::VectorXd MujocoMechanism::inverseDynamics(const MotorMotion& motion) {
-  Impl& m = *impl_;
-  m.closing.place(motion);
-  return m.closing.effortsByComplement(m.speeds.forces(m.closing.accelerations()) - m.closing.loads());
+BuiltTree buildMujoco(const Mechanism& mechanism, const WeldedMechanism& welded) {
+  WeldTree tree = weldTree(mechanism, welded);
+  const std::vector<std::size_t> cut = tree.cut;
+  return {std::make_unique<mujoco::TreeSpeeds>(mechanism, welded, std::move(tree)), cut};
 }
 
 }  // namespace ursula

@@ -2,16 +2,12 @@
 
 #include <stdexcept>
 
-#include "parts/engines/mujoco/mujoco_mechanism.h"
+#include "parts/engines/closed_mechanism.h"
 #include "parts/engines/mujoco/mujoco_reading.h"
 
 namespace ursula {
 
-struct MujocoMechanism::Impl {};
-
-MujocoMechanism::MujocoMechanism(const Mechanism&) { throw std::runtime_error("this was built without MuJoCo"); }
-MujocoMechanism::~MujocoMechanism() = default;
-Eigen::VectorXd MujocoMechanism::inverseDynamics(const MotorMotion&) {
+BuiltTree buildMujoco(const Mechanism&, const WeldedMechanism&) {
   throw std::runtime_error("this was built without MuJoCo");
 }
 
