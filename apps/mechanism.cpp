@@ -84,24 +84,22 @@ MechanismAlong pathWithPicture(const MechanismScenario& scenario, const std::str
 
 }  // namespace
 
-int checkMechanism(const MechanismScenario& scenario, const std::string& picture_file) {
+CheckedScenario checkMechanism(const MechanismScenario& scenario, const std::string& picture_file,
+                               std::string& freedoms) {
   return alongLoops(scenario, [&] {
     const MechanismAlong path = pathWithPicture(scenario, picture_file);
     LoopWork work;
     for (const double t : equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples))
       static_cast<void>(path.motion().inverseDynamics(t, work));
-    const auto tell = [on_stderr = picture_file == "-"](const std::string& text) {
-      on_stderr ? sayText(withoutControls(text)) : writeOutput("-", withoutControls(text));
-    };
-    for (const std::string& text : scenario.read.warnings) tell(text + "\n");
-    for (const std::string& text : scenario.read.assumptions) tell(text + "\n");
+    CheckedScenario out{scenario.file.string(), scenario.name};
+    out.warnings = scenario.read.warnings;
+    out.assumptions = scenario.read.assumptions;
     if (!path.freedoms().idle.empty())
-      tell(fmt::format("held at rest, since a spin about their own line has no effect: {}\n",
-                       fmt::join(path.freedoms().idle, ", ")));
-    tell(fmt::format("{}: {} freedom{} and as many motors; the scenario and its motion are valid; {} warning{}\n",
-                     scenario.file.string(), path.freedoms().freedoms, path.freedoms().freedoms == 1 ? "" : "s",
-                     scenario.read.warnings.size(), scenario.read.warnings.size() == 1 ? "" : "s"));
-    return exit_passed;
+      out.assumptions.push_back(fmt::format("held at rest, since a spin about their own line has no effect: {}",
+                                            fmt::join(path.freedoms().idle, ", ")));
+    freedoms = fmt::format("{} freedom{} and as many motors; ", path.freedoms().freedoms,
+                           path.freedoms().freedoms == 1 ? "" : "s");
+    return out;
   });
 }
 

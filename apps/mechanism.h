@@ -7,6 +7,7 @@
 
 #include "model/mechanism_scenario.h"
 #include "nocsolver/loops/loop_solver.h"
+#include "report/files/report.h"
 #include "validation/outside/external_solver.h"
 #include "validation/verdict/result.h"
 
@@ -42,9 +43,9 @@ GivenEfforts readEffortsAloud(const std::string& file, const std::vector<std::st
 /// Writes motion, efforts and joints at equally spaced instants, as CSV.
 int inverseOfMechanism(const MechanismScenario& scenario, int samples, const std::string& out);
 
-/// Checks freedoms and motion, and says what was assumed on reading. Draws the machine at the start of its motion into
-/// `picture` if that is not empty; as the model places it if it cannot move.
-int checkMechanism(const MechanismScenario& scenario, const std::string& picture);
+/// Checks freedoms and motion; `freedoms` gets a sentence about them. Draws the machine at the start of its motion into
+/// `picture` if that is not empty; as the model places it if it cannot move. Throws ScenarioError.
+CheckedScenario checkMechanism(const MechanismScenario& scenario, const std::string& picture, std::string& freedoms);
 
 /// Judges this program's solver, a command if there is one, or the efforts of a file if `torques` is not empty.
 ValidationResult judgeMechanism(const MechanismScenario& scenario, const std::string& torques,

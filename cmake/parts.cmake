@@ -6,7 +6,7 @@
 # FIRST: the first hour needs it, so `./dev validate` builds it. SEES: other parts that it may include. VERBS: their
 # functions are addName, in the *_verb.cpp of its folder. ADDS: what it adds to a verdict, as functions of the same name:
 # engines (addEngines, addMechanismEngines), fast families (addFastFamilies), likely causes (addLikelyCause,
-# addMechanismCause), provenance (addNAMEProvenance), what reads a mechanism's model again (addMechanismReading); or to
+# addMechanismCause), what a scenario cannot show (addBlindSpots), provenance (addNAMEProvenance), what reads a mechanism's model again (addMechanismReading); or to
 # what can be read: models of mechanisms (addMechanismReader), and what to do with a model (addModelAdvice).
 set(URSULA_PARTS all CACHE STRING "Which parts are built: first (what the first hour needs) or all")
 set_property(CACHE URSULA_PARTS PROPERTY STRINGS first all)
@@ -37,6 +37,7 @@ function(ursula_part_rows file)
   set(FAMILIES "")
   set(PROVENANCE "")
   set(CAUSE "nullptr")
+  set(BLIND "nullptr")
   set(READER "nullptr")
   set(ADVICE "nullptr")
   set(MECHANISM_ENGINES "")
@@ -50,6 +51,9 @@ function(ursula_part_rows file)
     elseif(what STREQUAL "addMechanismCause")
       set(MECHANISM_CAUSE "addMechanismCause")
       string(APPEND DECLARED "AddMechanismCause addMechanismCause;\n")
+    elseif(what STREQUAL "addBlindSpots")
+      set(BLIND "addBlindSpots()")
+      string(APPEND DECLARED "const BlindSpotFinder* addBlindSpots();\n")
     elseif(what STREQUAL "addMechanismEngines")
       string(APPEND DECLARED "void addMechanismEngines(std::vector<MakeMechanismEngine>& rows);\n")
       string(APPEND MECHANISM_ENGINES "  addMechanismEngines(rows);\n")

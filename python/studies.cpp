@@ -63,18 +63,29 @@ Simulated simulated(const ScenarioWithSolver& self, const py::object& torques, c
   return {{std::move(run.motions)}, tau, run.gave_up};
 }
 
-std::vector<std::string> checkedAny(const py::object& given) {
+/// Warnings, and what the scenario cannot show as JSON; "null" if this build knows no mistakes.
+std::pair<std::vector<std::string>, std::string> foundIn(const py::object& given) {
   const bool is_mechanism = py::isinstance<MechanismWithSolver>(given);
   if (!is_mechanism) requireScenario("check", given);
+  const BlindSpotFinder* finder = partBlindSpots();
+  const auto blind = [&](const auto* find, const auto& scenario) {
+    return find == nullptr ? "null" : report::blindJsonText(find(scenario));
+  };
   if (is_mechanism) {
     const auto& mechanism = given.cast<const MechanismWithSolver&>();
     const Unlocked unlocked;
-    return checked(mechanism);
+    return {checked(mechanism), blind(finder == nullptr ? nullptr : finder->mechanism, mechanism.scenario)};
   }
   const auto& self = given.cast<const ScenarioWithSolver&>();
   const Unlocked unlocked;
   tryMotion(self.scenario);
-  return warnings(self.scenario);
+  return {warnings(self.scenario), blind(finder == nullptr ? nullptr : finder->manipulator, self.scenario)};
+}
+
+py::object checkedAny(const py::object& given) {
+  const auto found = foundIn(given);
+  const py::object blind = py::module_::import("json").attr("loads")(found.second);
+  return py::module_::import("ursula._checked").attr("Checked")(found.first, blind);
 }
 
 /// Reads None, a number, or (from, to, count), as for the program's option.

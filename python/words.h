@@ -138,7 +138,8 @@ instants.)";
 constexpr const char* simulation = "The motion that efforts produce; made by simulate.";
 
 constexpr const char* check_scenario =
-    R"(Returns warnings of values that are valid but unusual, a list of text with file, line and column. Raises
+    R"(Returns warnings of values that are valid but unusual, a list of text with file, line and column. Its `blind` is a
+list of mistakes that machine and motion would let pass: dicts with mistake, cause and largest. Raises
 ScenarioError or PoseError if the scenario's motion is not possible.)";
 
 constexpr const char* map =

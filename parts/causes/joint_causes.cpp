@@ -43,6 +43,7 @@ void addSpeeds(TriedCauses& out) {
 
 /// What the rotors' accelerations lack.
 void addRotorAccelerations(TriedCauses& out) {
+  if (!hasRotors(out.machine)) return;
   for (const auto& [whose, of_platform] : {std::pair("of the legs", false), {"of legs and platform", true}})
     for (const auto& [way, times] : {std::pair("without", 1.0), {"with the wrong sign of", 2.0}})
       out.addEfforts({std::string("the rotors' accelerations ") + way + " the rate of the Jacobian " + whose,

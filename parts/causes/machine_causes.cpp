@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -64,9 +65,15 @@ void addInertiaOrders(TriedCauses& out) {
 
 void addProducts(TriedCauses& out) {
   const auto moments = [](const Matrix3d& inertia) { return Matrix3d(inertia.diagonal().asDiagonal()); };
-  out.addMachine({"inertia of the platform without products of inertia",
-                  {CauseKind::parameter, "", "platform", "manipulator.platform.inertia"}},
-                 [=](Machine& machine) { machine.platform.inertia = moments(machine.platform.inertia); });
+  const auto has = [&](const Matrix3d& inertia) { return inertia != moments(inertia); };
+  const auto& legs = out.machine.parameters().legs;
+  const bool links_have = std::any_of(
+      legs.begin(), legs.end(), [&](const Leg& leg) { return has(leg.proximal.inertia) || has(leg.distal.inertia); });
+  if (has(out.machine.platform().inertia))
+    out.addMachine({"inertia of the platform without products of inertia",
+                    {CauseKind::parameter, "", "platform", "manipulator.platform.inertia"}},
+                   [=](Machine& machine) { machine.platform.inertia = moments(machine.platform.inertia); });
+  if (!links_have) return;
   out.addLinks("inertias of ", " without products of inertia", CauseKind::missing_term, "inertia",
                [=](Link& one) { one.inertia = moments(one.inertia); });
   out.addLinks("products of inertia of ", " with the wrong sign", CauseKind::sign, "inertia",
@@ -125,6 +132,8 @@ void addOfOneLeg(TriedCauses& out) {
 
 /// Links that spin freely, held at the universal joint.
 void addHeld(TriedCauses& out) {
+  const std::vector<Leg>& legs = out.machine.given().legs;
+  if (std::none_of(legs.begin(), legs.end(), [](const Leg& leg) { return leg.spins; })) return;
   out.addMachine(
       {"links that spin freely taken as held by their universal joints", {CauseKind::missing_term, "spin", "legs"}},
       [given = out.machine.given()](Machine& machine) {
@@ -214,7 +223,8 @@ void addPlatform(TriedCauses& out) {
 
 void addMachineCauses(TriedCauses& out) {
   addPlatform(out);
-  for (const TiedParameters& tied : tiedParameters(out.machine)) out.addTied(tied);
+  for (const TiedParameters& tied : tiedParameters(out.machine))
+    if (!out.one_by_one || tied.isOneNumber()) out.addTied(tied);
   addInertiaPoints(out);
   addInertiaOrders(out);
   addProducts(out);

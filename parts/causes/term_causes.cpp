@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -219,8 +220,11 @@ void addTermCauses(TriedCauses& out) {
   addPart("the gyroscopic moment", "gyroscopic", gyroscopic, out);
   addPart("the centripetal acceleration", "centripetal", centripetal, out);
   addPart("the tangential acceleration", "angular_acceleration", tangential, out, platform_group, false);
-  addPart("the Coriolis acceleration", "coriolis", coriolis, out, distal_group);
-  addPart("half of the Coriolis acceleration", "coriolis", halfCoriolis, out, distal_group, false);
+  const std::vector<Leg>& legs = out.machine.parameters().legs;
+  if (std::any_of(legs.begin(), legs.end(), [](const Leg& leg) { return rowOf(leg.kind).isTelescopic(); })) {
+    addPart("the Coriolis acceleration", "coriolis", coriolis, out, distal_group);
+    addPart("half of the Coriolis acceleration", "coriolis", halfCoriolis, out, distal_group, false);
+  }
   addPart("the moment of inertia", "inertia", turningInertia, out);
   addPart("the moment of angular acceleration", "inertia", acceleratedInertia, out);
   addPart("the force of inertia", "inertia", movingInertia, out);

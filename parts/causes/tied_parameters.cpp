@@ -87,6 +87,13 @@ std::string TiedParameters::text(const ManipulatorParameters& machine, double re
                      first.group() == NumberGroup::inertia ? "tensor's largest moment" : "vector's length");
 }
 
+bool TiedParameters::isOneNumber() const {
+  const Parameter& first = members.front();
+  return std::all_of(members.begin(), members.end(), [&](const Parameter& each) {
+    return each.body == first.body && each.quantity == first.quantity && each.entry == first.entry;
+  });
+}
+
 bool TiedParameters::isPossible(const ManipulatorParameters& machine, double relative) const {
   const Parameter& first = members.front();
   const NumberGroup group = first.group();
@@ -110,10 +117,7 @@ std::optional<NamedCause> TiedParameters::named(const ManipulatorParameters& mac
   const auto all = [this](auto&& same) { return std::all_of(members.begin(), members.end(), same); };
   if (all([&](const Parameter& each) { return each.leg == first.leg; })) out.leg = first.leg + 1;
   out.parameter = sharedPath(members);
-  const bool are_one_number = all([&](const Parameter& each) {
-    return each.body == first.body && each.quantity == first.quantity && each.entry == first.entry;
-  });
-  if (!are_one_number || !areEqual(machine, members) || !areEqual(changed, members)) return out;
+  if (!isOneNumber() || !areEqual(machine, members) || !areEqual(changed, members)) return out;
   out.unit = first.unit;
   out.expected = before;
   out.found = after;

@@ -19,6 +19,8 @@ struct TiedParameters {
   void disturb(ManipulatorParameters& machine, double relative) const;
   /// "mass centre of the distal links 0.65 +- 1e-05 m instead of 0.7", or a factor if the members differ.
   std::string text(const ManipulatorParameters& machine, double relative, double deviation) const;
+  /// Whether the members are one number, of one leg or several.
+  bool isOneNumber() const;
   /// Whether masses, lengths and moments of inertia are positive.
   bool isPossible(const ManipulatorParameters& machine, double relative) const;
   /// The same as `text`, typed. Returns nullopt for an impossible body.

@@ -53,7 +53,7 @@ struct CauseName {
   CauseName(std::string words, const NamedCause& typed) : text(std::move(words)), named(typed) {}
 };
 
-/// "499.31 +- 0.02", to the deviation's digits but at most ten.
+/// "499.31 +- 0.02", to the deviation's digits but at most ten; "499.31" without a deviation.
 std::string withDeviation(double value, double deviation);
 
 class MachineSlopes;
@@ -66,6 +66,7 @@ struct TriedCauses {
   const Scenario& scenario;
   const Manipulator& machine = *scenario.manipulator;
   std::vector<Cause> causes = {};
+  bool one_by_one = false;                     ///< whether different numbers of the machine are never tied
   std::shared_ptr<MachineSlopes> slopes = {};  ///< once a machine's number is fitted
 
   /// Adds a cause without a fitted number; `solver` is called when it is tried.

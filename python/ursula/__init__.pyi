@@ -439,8 +439,12 @@ class Comparison:
 History = Result | dict[str, npt.ArrayLike] | str | os.PathLike[str]
 Axis = float | tuple[float, float, int] | None
 
-def check(s: Scenario | MechanismScenario) -> list[str]:
-    """Returns warnings of values that are valid but unusual."""
+class Checked(list[str]):
+    """Warnings, and the mistakes that the scenario cannot show."""
+    blind: list[dict[str, Any]] | None
+
+def check(s: Scenario | MechanismScenario) -> Checked:
+    """Returns warnings of values that are valid but unusual, and in `blind` the mistakes that cannot show."""
 
 def compare(
     reference: History,

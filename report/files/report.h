@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,14 @@ class OutputFolder;
 struct RunTime {
   double seconds = 0;   ///< wall time
   std::string started;  ///< UTC, as in 2026-11-22T05:13:18; if empty, no time is written
+};
+
+/// What was found of a scenario without judging efforts.
+struct CheckedScenario {
+  std::string file, name;
+  std::string error = {};  ///< why its motion cannot be judged; else empty
+  std::vector<std::string> warnings = {}, assumptions = {};
+  std::optional<std::vector<BlindSpot>> blind = {};  ///< nullopt if the build knows no mistakes
 };
 
 /// Measures time from its construction.

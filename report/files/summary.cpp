@@ -75,6 +75,28 @@ Json causeJson(const NamedCause& cause) {
   return json;
 }
 
+Json blindJson(const std::vector<BlindSpot>& blind) {
+  Json out = Json::array();
+  for (const BlindSpot& one : blind) {
+    out.push_back({{"mistake", one.mistake}, {"cause", causeJson(one.cause)}, {"largest", one.largest}});
+    if (!one.alike.empty()) out.back()["alike"] = one.alike;
+  }
+  return out;
+}
+
+Json checkedObject(const CheckedScenario& checked) {
+  Json out = {{"file", checked.file}, {"valid", checked.error.empty()}};
+  if (!checked.error.empty()) {
+    out["error"] = checked.error;
+    return out;
+  }
+  out["scenario"] = checked.name;
+  out["warnings"] = checked.warnings;
+  out["assumptions"] = checked.assumptions;
+  if (checked.blind) out["blind"] = blindJson(*checked.blind);
+  return out;
+}
+
 void addCauses(const ValidationResult& result, Json& summary) {
   summary["cause"] = result.cause ? causeJson(*result.cause) : Json();
   summary["causes"] = Json::array();
@@ -100,8 +122,18 @@ std::string summaryJson(const ValidationResult& result) {
                   {"provenance", object(result.provenance)}};
   if (result.deviation) summary["deviation"] = deviationJson(*result.deviation);
   addCauses(result, summary);
+  if (result.blind) summary["blind"] = blindJson(*result.blind);
   return jsonText(summary, 2) + "\n";
 }
+
+std::string checkedJson(const std::vector<CheckedScenario>& checked) {
+  if (checked.size() == 1) return jsonText(checkedObject(checked.front()), 2) + "\n";
+  Json all = Json::array();
+  for (const CheckedScenario& each : checked) all.push_back(checkedObject(each));
+  return jsonText(all, 2) + "\n";
+}
+
+std::string blindJsonText(const std::vector<BlindSpot>& blind) { return jsonText(blindJson(blind), 0); }
 
 std::string errorJson(const std::string& scenario, const std::string& error) {
   const Json json = {{"scenario", scenario}, {"verdict", "error"}, {"error", error}};

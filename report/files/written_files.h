@@ -43,6 +43,12 @@ ValidationResult stamped(const ValidationResult& result);
 /// `summary.json`. A number that is not finite becomes null; findings and provenance are ordered objects.
 std::string summaryJson(const ValidationResult& result);
 
+/// Checked scenarios as JSON: an object of one, an array of several.
+std::string checkedJson(const std::vector<CheckedScenario>& checked);
+
+/// An array of `{mistake, cause, largest}`, with `alike` for further sentences of the same cause.
+std::string blindJsonText(const std::vector<BlindSpot>& blind);
+
 /// The summary of a scenario with an error: scenario, verdict "error" and error.
 std::string errorJson(const std::string& scenario, const std::string& error);
 

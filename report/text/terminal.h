@@ -15,6 +15,9 @@ std::string quietText(const SuiteEntry& entry, bool coloured);
 /// Returns a line per scenario in the given order, then the totals. `dir` contains their folders.
 std::string suiteText(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir, bool coloured);
 
+/// Returns lines of mistakes that a scenario cannot show: the first few, one of each term.
+std::string blindText(const std::vector<BlindSpot>& blind);
+
 /// Whether to use colour: only on a terminal that is not dumb, and unless NO_COLOR is set and non-empty. Null means not
 /// set.
 bool wantsColour(bool is_terminal, const char* no_color, const char* term);

@@ -7,6 +7,7 @@
 
 #include "model/mechanism_scenario.h"
 #include "model/scenario.h"
+#include "validation/blind_spots.h"
 #include "validation/checks/families.h"
 #include "validation/likely_cause.h"
 #include "validation/limits/further_engines.h"
@@ -29,6 +30,7 @@ const Check& named(const ValidationResult& result, const std::string& name) {
 TEST(Core, hasNoRowOfAPart) {
   EXPECT_EQ(furtherEngines().size(), 1u) << "Simbody's own second tree";
   EXPECT_EQ(partLikelyCause(), nullptr);
+  EXPECT_EQ(partBlindSpots(), nullptr);
   EXPECT_EQ(partModelReader(), nullptr);
   EXPECT_TRUE(partFamilies().empty());
   EXPECT_FALSE(checkFamilies().empty());

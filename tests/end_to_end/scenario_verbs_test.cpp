@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "base/utf8.h"
 #include "tests/end_to_end/program.h"
@@ -182,6 +183,34 @@ TEST(CheckVerb, drawsAPngWhereTheNameEndsSo) {
   EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "a.png"), "kept");
   for (const char* verb : {"check", "map"})
     EXPECT_THAT(ursula(std::string(verb) + " --help").out, HasSubstr("librsvg2-bin"));
+}
+
+TEST(CheckVerb, listsWhatCannotShowAsJson) {
+  const Program ursula;
+  const UrsulaRun run = ursula("check " + helix + " --json");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["valid"], true);
+  EXPECT_FALSE(json["blind"].empty());
+  for (const auto& one : json["blind"]) {
+    EXPECT_TRUE(one["mistake"].is_string() && one["cause"]["kind"].is_string()) << one;
+    EXPECT_LT(one["largest"].get<double>(), 1e-9) << one;
+  }
+  EXPECT_THAT(ursula("check " + helix).out, HasSubstr("friction left out"));
+  EXPECT_TRUE(nlohmann::json::parse(ursula("check " + helix + " " + helix + " --json").out).is_array());
+}
+
+TEST(CheckVerb, suggestsAMotionThatShowsMore) {
+  const Program ursula;
+  const UrsulaRun run = ursula("check " + helix + " --suggest --out new.toml");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("do with this motion"));
+  const auto count = [&](const std::string& file) {
+    return nlohmann::json::parse(ursula("check " + file + " --json").out)["blind"].size();
+  };
+  EXPECT_LT(count("new.toml"), count(helix));
+  EXPECT_EQ(ursula("check " + helix + " --suggest --out new.toml").exit_code, 2) << "never overwrites";
+  EXPECT_EQ(ursula("check " + helix + " --suggest --json").exit_code, 2);
 }
 
 TEST(CheckVerb, exitsWithTwoForErrorsOfAnyScenarioAndNamesThemAll) {

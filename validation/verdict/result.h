@@ -47,6 +47,14 @@ struct NamedCause {
   std::string joint = {};                                       ///< of a mechanism, by the file's name
 };
 
+/// A mistake that leaves every effort of a scenario within the limits of the verdict.
+struct BlindSpot {
+  std::string mistake;             ///< a sentence
+  std::vector<std::string> alike;  ///< further sentences with the same cause
+  NamedCause cause;
+  double largest = 0;  ///< the largest change of an effort, as a share of the largest effort
+};
+
 /// The `term` of the error by which answers to a repeated question differ.
 constexpr const char* repeat_term = "repeat";
 
@@ -312,14 +320,15 @@ struct ValidationResult {
   /// Facts that are not judged: step counts, condition numbers, the dominant error, …
   std::vector<Finding> findings;
   OddOne odd_one;
-  std::optional<ReplayError> replay_error;   ///< nullopt if the caller left it out
-  std::optional<NamedCause> cause;           ///< of wrong efforts; nullopt unless exactly one explains everything
-  std::vector<NamedCause> causes;            ///< others that explain the deviation equally well
-  std::vector<TermError> terms;              ///< of a solver that was asked apart; empty for efforts from a file
-  CauseWords cause_words;                    ///< empty if no effort is wrong
-  std::size_t replay_windows = 0;            ///< number of windows in the replay
-  std::optional<EffortDeviation> deviation;  ///< nullopt if no effort was compared
-  std::string effort = "torque";             ///< noun for what the motors exert, see effortNoun
+  std::optional<ReplayError> replay_error;      ///< nullopt if the caller left it out
+  std::optional<NamedCause> cause;              ///< of wrong efforts; nullopt unless exactly one explains everything
+  std::vector<NamedCause> causes;               ///< others that explain the deviation equally well
+  std::vector<TermError> terms;                 ///< of a solver that was asked apart; empty for efforts from a file
+  std::optional<std::vector<BlindSpot>> blind;  ///< what the scenario cannot show; nullopt if it was not asked
+  CauseWords cause_words;                       ///< empty if no effort is wrong
+  std::size_t replay_windows = 0;               ///< number of windows in the replay
+  std::optional<EffortDeviation> deviation;     ///< nullopt if no effort was compared
+  std::string effort = "torque";                ///< noun for what the motors exert, see effortNoun
   TimeSeries timeseries;
   std::vector<Curve> curves;
   std::vector<Event> events;              ///< restarts and stops of replays, poses nearest to a limit
