@@ -87,8 +87,13 @@ void refuseToReplace(const std::string& folder, const std::filesystem::path& rea
 
 void requireKept(const Scenario& scenario, const std::string& folder, std::initializer_list<const char*> written,
                  const std::string& also) {
-  std::vector<std::filesystem::path> inputs = filesNamedBy(scenario);
-  inputs.push_back(scenario.file);
+  requireKept(scenario.text, scenario.file, folder, written, also);
+}
+
+void requireKept(const std::string& text, const std::filesystem::path& scenario, const std::string& folder,
+                 std::initializer_list<const char*> written, const std::string& also) {
+  std::vector<std::filesystem::path> inputs = filesNamedBy(text, scenario);
+  inputs.push_back(scenario);
   inputs.emplace_back(also);
   for (const std::filesystem::path& read : inputs)
     for (const char* name : written)

@@ -27,6 +27,9 @@ void requireApart(const std::string& text, const std::filesystem::path& scenario
 /// one that it names, or `also`.
 void requireKept(const Scenario& scenario, const std::string& folder, std::initializer_list<const char*> written,
                  const std::string& also = "");
+/// The same for a scenario of either machine, by its text.
+void requireKept(const std::string& text, const std::filesystem::path& scenario, const std::string& folder,
+                 std::initializer_list<const char*> written, const std::string& also = "");
 
 /// Throws UsageError if one of `written` is in a folder of `compared`, or a link to a file there. A file written into
 /// results would mix several runs.

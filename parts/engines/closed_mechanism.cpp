@@ -1,6 +1,14 @@
 #include "parts/engines/closed_mechanism.h"
 
+#include <stdexcept>
+
 namespace ursula {
+
+MechanismCalls::Moved MechanismCalls::start(const Rigidity&, const MotorMotion&) {
+  throw std::logic_error("the engine moves no mechanism in time");
+}
+void MechanismCalls::step(const Eigen::VectorXd&) { throw std::logic_error("the engine moves no mechanism in time"); }
+MechanismCalls::Moved MechanismCalls::moved() const { throw std::logic_error("the engine moves no mechanism in time"); }
 
 ClosedMechanism::ClosedMechanism(const Mechanism& mechanism, BuildTree* build)
     : mechanism_(mechanism),
@@ -41,6 +49,37 @@ Eigen::VectorXd ClosedMechanism::efforts(Recipe recipe, const MotorMotion& motio
   if (own || recipe == Recipe::open) return closing_.atMotors(f);
   if (recipe == Recipe::least_squares) return closing_.leastEfforts(f);
   return tree_.speeds->isTree() ? closing_.effortsByComplement(f) : closing_.effortsByMultipliers(f);
+}
+
+MechanismCalls::Moved ClosedMechanism::start(const Rigidity& rigidity, const MotorMotion& motion) {
+  closing_.place(motion);
+  tree_.speeds->startTime(rigidity);
+  closing_.take(Eigen::VectorXd(closing_.speeds()));
+  return moved();
+}
+
+void ClosedMechanism::step(const Eigen::VectorXd& efforts) {
+  closing_.take(tree_.speeds->stepTime(closing_.onSpeeds(efforts) + closing_.loads() - missingWeights()));
+}
+
+double ClosedMechanism::energy() const {
+  double out = closing_.energyOfRotors();
+  for (std::size_t w = 1; w < welded_.welds.size(); ++w) {
+    const WeldedBodies& weld = welded_.welds[w];
+    const WeldState& at = tree_.speeds->state(w);
+    const Vector3d omega = at.R.transpose() * at.w;
+    out += (weld.mass * at.v.squaredNorm() + omega.dot(weld.inertia * omega)) / 2 -
+           weld.weight * mechanism_.gravity().dot(at.c + at.R * weld.weight_arm);
+  }
+  return out;
+}
+
+MechanismCalls::Moved ClosedMechanism::moved() const {
+  const std::size_t weld = welded_.of_body[mechanism_.output()];
+  const WeldState& at = tree_.speeds->state(weld);
+  const Vector3d center = mechanism_.bodies()[mechanism_.output()].center_of_mass - welded_.welds[weld].center;
+  return {closing_.motorValues(), welded_.welds[0].center + at.c + at.R * center, closing_.gap(), energy(),
+          closing_.loads().dot(closing_.speeds())};
 }
 
 }  // namespace ursula

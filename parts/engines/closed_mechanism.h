@@ -37,6 +37,21 @@ class MechanismCalls {
   /// Returns the largest gap of a loop as last placed, m; angles count by the machine's length.
   virtual double gap() const = 0;
   virtual std::vector<std::size_t> cutJoints() const = 0;  ///< indices into mechanism.joints()
+
+  // --- in time, with the engine's own closures and steps ---
+  struct Moved {
+    Eigen::VectorXd q;              ///< of the motors
+    Vector3d p = Vector3d::Zero();  ///< of the output body's mass centre, m
+    double gap = 0;                 ///< m
+    double energy = 0, power = 0;   ///< kinetic and of weight, J; of friction, damping and springs, W
+  };
+  /// Returns the settings of the loops' rigidity, the default first; empty if the engine moves no mechanism.
+  virtual std::vector<Rigidity> rigidities() const { return {}; }
+  /// Begins at the motion with closed loops. Throws std::domain_error with the reason if the engine cannot.
+  virtual Moved start(const Rigidity& rigidity, const MotorMotion& motion);
+  /// Moves by one step under efforts. Throws std::runtime_error if the engine gives up.
+  virtual void step(const Eigen::VectorXd& efforts);
+  virtual Moved moved() const;
 };
 
 /// A mechanism with any closed loops in an engine's tree: its kinematics and Jacobians close the loops by Newton's
@@ -52,9 +67,14 @@ class ClosedMechanism : public MechanismCalls {
   Eigen::VectorXd efforts(Recipe recipe, const MotorMotion& motion) override;
   double gap() const override { return closing_.gap(); }
   std::vector<std::size_t> cutJoints() const override;
+  std::vector<Rigidity> rigidities() const override { return tree_.speeds->rigidities(); }
+  Moved start(const Rigidity& rigidity, const MotorMotion& motion) override;
+  void step(const Eigen::VectorXd& efforts) override;
+  Moved moved() const override;
 
  private:
   Eigen::VectorXd missingWeights() const;
+  double energy() const;
 
   Mechanism mechanism_;
   WeldedMechanism welded_;

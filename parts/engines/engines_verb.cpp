@@ -42,11 +42,11 @@ int engines(EnginesOptions options) {
     refuseResults(options.out);
   }
   options.asked.engines = namedEngines(options.engines);
-  const auto in = [&](const char* file) { return options.out.empty() ? "" : options.out + "/" + file; };
-  const AnyScenario any =
-      openAny(options.scenario, {in("engines.json"), in("engines.csv"), in("efforts.csv"), in("report.html")});
-  if (any.manipulator && !options.out.empty())
-    requireKept(*any.manipulator, options.out, {"engines.json", "engines.csv", "efforts.csv", "report.html"});
+  const AnyScenario any = openAny(options.scenario);
+  const std::string& said = any.mechanism ? any.mechanism->text : any.manipulator->text;
+  const std::filesystem::path& file = any.mechanism ? any.mechanism->file : any.manipulator->file;
+  if (!options.out.empty())
+    requireKept(said, file, options.out, {"engines.json", "engines.csv", "efforts.csv", "report.html"});
   std::optional<OutputFolder> folder;  // made before the work, so that a folder that cannot be written is found early
   if (!options.out.empty()) folder.emplace(options.out);
   Progress progress(any.mechanism ? any.mechanism->name : any.manipulator->name);

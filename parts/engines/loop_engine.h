@@ -15,16 +15,6 @@
 
 namespace ursula {
 
-/// An engine's setting of the loops' rigidity, in its own names.
-struct Rigidity {
-  std::string name;  ///< "default"
-  double step = 0;   ///< time for which efforts are held, s
-  /// Efforts are held over a step at their values of this instant, a share of the step. It is chosen so that the steps
-  /// follow a motion best.
-  double instant = 0;
-  std::vector<std::pair<std::string, double>> settings;  ///< {"solref_timeconst", 0.02}
-};
-
 /// Trees with the gaps of their loops.
 struct PlacedTree : OpenTree {
   /// The leg's point minus the platform's, m, in the axes of J and P.

@@ -72,6 +72,11 @@ Eigen::VectorXd SpeedsOfWelds::ownInverse(const Eigen::VectorXd&, bool) {
   throw std::domain_error("it has no inverse dynamics of closed loops");
 }
 
+void SpeedsOfWelds::startTime(const Rigidity&) { throw std::domain_error("it moves no loops in time"); }
+Eigen::VectorXd SpeedsOfWelds::stepTime(const Eigen::VectorXd&) {
+  throw std::domain_error("it moves no loops in time");
+}
+
 MechanismClosing::MechanismClosing(const Mechanism& mechanism, const WeldedMechanism& welded,
                                    const std::vector<std::size_t>& cut, SpeedsOfWelds& speeds)
     : mechanism_(mechanism), speeds_(speeds) {
@@ -261,6 +266,27 @@ Eigen::VectorXd MechanismClosing::atMotors(const Eigen::VectorXd& f) const {
     const auto own = speeds_.own(c.row.joint, c.index);
     if (!own) throw std::domain_error(fmt::format("{} is no coordinate of its own", c.joint->name));
     out(k) = own->sign * f(own->speed);
+  }
+  return out;
+}
+
+void MechanismClosing::take(const Eigen::VectorXd& u) {
+  u_ = u;
+  u_dot_ = Eigen::VectorXd::Zero(u.size());
+  motorValues();  // so that angles count their turns
+}
+
+Eigen::VectorXd MechanismClosing::onSpeeds(const Eigen::VectorXd& efforts) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(speeds_.count());
+  for (Eigen::Index k = 0; k < efforts.size(); ++k) out += efforts(k) * formOf(static_cast<std::size_t>(k), false).J;
+  return out;
+}
+
+double MechanismClosing::energyOfRotors() const {
+  double out = 0;
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+    const double rate = formOf(k, false).J.dot(u_);
+    out += coordinates_[k].joint->rotor_inertia * rate * rate / 2;
   }
   return out;
 }

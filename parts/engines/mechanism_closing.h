@@ -7,6 +7,7 @@
 
 #include "model/motor_trajectory.h"
 #include "parts/engines/joint_rows.h"
+#include "parts/engines/recipe.h"
 
 namespace ursula {
 
@@ -46,6 +47,14 @@ class SpeedsOfWelds {
   /// Returns the same by the engine's own inverse dynamics, with its own closures of the cut joints. Throws
   /// std::domain_error with the reason if it has none for this machine.
   virtual Eigen::VectorXd ownInverse(const Eigen::VectorXd& accelerations, bool hard);
+
+  // --- in time, with the engine's own closures of the cut joints ---
+  /// Returns the settings of the loops' rigidity, the default first; empty if it moves no loops.
+  virtual std::vector<Rigidity> rigidities() const { return {}; }
+  /// Begins at the placed state with its speeds. Throws std::domain_error with the reason if it cannot hold the loops.
+  virtual void startTime(const Rigidity& rigidity);
+  /// Moves by a step under forces on the speeds, which are held. Returns the new speeds; the states are the new ones.
+  virtual Eigen::VectorXd stepTime(const Eigen::VectorXd& forces);
 };
 
 /// Least squares and least norm by a pivoted QR factorisation; the rank is where the pivots fall the most.
@@ -80,6 +89,14 @@ class MechanismClosing {
   /// Returns the largest error of a closure, m; angles count by the machine's length.
   double gap() const;
 
+  /// Takes the engine's state and these speeds, without accelerations.
+  void take(const Eigen::VectorXd& u);
+  Eigen::VectorXd motorValues() const;
+  /// Returns Sᵀ times the efforts.
+  Eigen::VectorXd onSpeeds(const Eigen::VectorXd& efforts) const;
+  /// Returns the kinetic energy of the loaded joints' rotors, J.
+  double energyOfRotors() const;
+
   const Eigen::VectorXd& speeds() const { return u_; }
   const Eigen::VectorXd& accelerations() const { return u_dot_; }
   /// Returns the forces of damping, friction, springs and rotors on the speeds.
@@ -104,7 +121,6 @@ class MechanismClosing {
   Eigen::Index motorCount() const { return static_cast<Eigen::Index>(mechanism_.motorCount()); }
   Eigen::MatrixXd allRows(Eigen::Index motors) const;
   Eigen::VectorXd errors(const Eigen::VectorXd* target) const;
-  Eigen::VectorXd motorValues() const;
   /// N of u = N q̇, by S N = 1 and G N = 0.
   Eigen::MatrixXd complement() const;
   bool newton(const Eigen::VectorXd& target);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "tests/end_to_end/program.h"
@@ -77,6 +78,22 @@ TEST(EnginesVerb, takesAMechanism) {
       ursula("validate '" URSULA_SCENARIOS "/mechanisms/fivebar.toml' --torques found/efforts.csv --quiet");
   EXPECT_THAT(judged.out, HasSubstr("fivebar: ")) << "the file is one of efforts: " << judged.err;
   EXPECT_EQ(nlohmann::json::parse(ursula(call + "--json").out).at("model"), "fivebar.xml");
+}
+
+TEST(EnginesVerb, replacesNothingThatAMechanismReads) {
+  const Program ursula;
+  const std::string shipped = Program::shipped("mechanisms/fivebar.toml");
+  ASSERT_EQ(ursula("inverse '" URSULA_SCENARIOS "/mechanisms/fivebar.toml' --samples 41 --out motion.csv").exit_code,
+            0);
+  std::filesystem::create_directory(ursula.folder() / "side");
+  ursula.write("side/efforts.csv", TemporaryFolder::read(ursula.folder() / "motion.csv"));
+  std::string text = shipped.substr(0, shipped.find("[trajectory]"));
+  text.replace(text.find("fivebar.xml"), 11, URSULA_SCENARIOS "/mechanisms/fivebar.xml");
+  ursula.write("sampled.toml", text + "[trajectory]\nkind = \"samples\"\nfile = \"side/efforts.csv\"\n");
+  const UrsulaRun run = ursula("engines sampled.toml --out side");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("results would replace "));
+  EXPECT_EQ(ursula("engines sampled.toml --samples 3 --engine Simbody --out elsewhere").exit_code, 0);
 }
 
 TEST(EnginesVerb, refusesAMechanismThatCannotMove) {

@@ -12,6 +12,7 @@
 
 #include "parts/engines/side_by_side/side_by_side.h"
 #include "tests/support/matchers.h"
+#include "validation/mechanism/validate_mechanism.h"
 
 namespace ursula {
 namespace {
@@ -142,6 +143,65 @@ TEST(EnginesOfMechanisms, aRecipeWithoutAnswerSaysWhy) {
   EXPECT_THAT(sideBySideJson(found), HasSubstr(why));
   EXPECT_THAT(effortsCsv(found), Not(HasSubstr("mujoco_own_inverse")));
   EXPECT_THAT(effortsCsv(foundOf(shippedMechanism("fourbar"))), HasSubstr("mujoco_own_inverse"));
+}
+
+/// The default softness opens the loops by tenths of a millimetre, the hardest by a hundredth of that.
+TEST(EnginesOfMechanisms, softLoopsAreMovedInTime) {
+  for (const char* name : {"fourbar", "fivebar", "delta"}) {
+    SCOPED_TRACE(name);
+    const MechanismScenario scenario = shippedMechanism(name);
+    const SideBySide found = foundOf(scenario);
+    const EngineResult* engine = engineOf(found, "MuJoCo");
+    if (engine == nullptr) GTEST_SKIP() << "without MuJoCo";
+    ASSERT_EQ(engine->in_time.size(), 2u);
+    const TimeSteppingResult &soft = engine->in_time[0], &hard = engine->in_time[1];
+    for (const TimeSteppingResult* each : {&soft, &hard}) {
+      EXPECT_EQ(each->gave_up, "");
+      EXPECT_EQ(each->steps, 250);
+      EXPECT_GT(each->work, 0);
+      EXPECT_LT(std::abs(each->energy), 0.02 * each->work) << "weight, springs, friction and rotors are all counted";
+      EXPECT_LT(each->away, 0.01 * scenario.mechanism->length());
+    }
+    EXPECT_GT(soft.gap, 50 * hard.gap);
+    EXPECT_GT(soft.sag, 50 * hard.sag);
+    EXPECT_GT(hard.gap, 1e-9) << "and never rigid";
+    EXPECT_THAT(sideBySideHtml(found), HasSubstr("sag of the output body"));
+  }
+}
+
+/// A control: with efforts that are too small by a tenth the motors fall behind.
+TEST(EnginesOfMechanisms, movedMotorsFollowTheEfforts) {
+  if (!loopEngineNamed("MuJoCo")->available()) GTEST_SKIP() << "without MuJoCo";
+  const MechanismScenario scenario = shippedMechanism("delta");
+  const MechanismAlong along(scenario);
+  LoopWork work;
+  std::vector<double> off;
+  for (const double factor : {1.0, 0.9}) {
+    ClosedMechanism engine(*scenario.mechanism, buildMujoco);
+    const Rigidity hard = engine.rigidities().at(1);
+    engine.start(hard, scenario.trajectory->at(0));
+    for (int k = 0; k < 50; ++k) engine.step(factor * along.motion().inverseDynamics(k * hard.step, work));
+    off.push_back((engine.moved().q - scenario.trajectory->at(50 * hard.step).q).norm());
+  }
+  EXPECT_LT(off[0], 1e-3);
+  EXPECT_GT(off[1], 20 * off[0]);
+}
+
+/// Efforts are right all the same.
+TEST(EnginesOfMechanisms, whatCannotBeMovedSaysWhy) {
+  const SideBySide found = foundOf(changed(shippedMechanism("fourbar"), [](MechanismParameters& machine) {
+    for (MechanismJoint& joint : machine.joints)
+      if (joint.closure) {
+        joint.kind = JointKind::universal;
+        joint.axis = {machine.joints[0].axis[0], Vector3d(machine.joints[0].axis[0].unitOrthogonal())};
+      }
+  }));
+  const EngineResult* engine = engineOf(found, "MuJoCo");
+  if (engine == nullptr) GTEST_SKIP() << "without MuJoCo";
+  for (const TimeSteppingResult& each : engine->in_time) {
+    EXPECT_EQ(each.steps, 0);
+    EXPECT_THAT(each.gave_up, HasSubstr("cut joint pin"));
+  }
 }
 
 TEST(EnginesOfMechanisms, motorsAndCutsHaveTheFilesNames) {

@@ -105,6 +105,34 @@ Eigen::VectorXd TreeSpeeds::ownInverse(const Eigen::VectorXd& accelerations, boo
 }
 // [/own]
 
+std::vector<Rigidity> TreeSpeeds::rigidities() const {
+  constexpr double step = 0.002;  // s, MuJoCo's default
+  std::array<mjtNum, mjNREF> solref{};
+  std::array<mjtNum, mjNIMP> solimp{};
+  mj_defaultSolRefImp(solref.data(), solimp.data());
+  const auto of = [](const char* name, double time_constant, double impedance) {
+    return Rigidity{name, step, 0, {{"solref_timeconst", time_constant}, {"solimp_dmax", impedance}}};
+  };
+  return {of("default", solref[0], solimp[1]), of("hardest", 2 * step, mjMAXIMP)};
+}
+
+void TreeSpeeds::startTime(const Rigidity& rigidity) {
+  moved_.model = connectedModel(mechanism_, welded_, tree_, rigidity.settings.at(1).second == mjMAXIMP, true);
+  moved_.data = dataOf(*moved_.model);
+  std::copy_n(data_->qpos, model_->nq, moved_.data->qpos);
+  std::copy_n(data_->qvel, model_->nv, moved_.data->qvel);
+}
+
+Eigen::VectorXd TreeSpeeds::stepTime(const Eigen::VectorXd& forces) {
+  std::copy_n(forces.data(), forces.size(), moved_.data->qfrc_applied);
+  mj_step(moved_.model.get(), moved_.data.get());
+  std::copy_n(moved_.data->qpos, model_->nq, data_->qpos);
+  const Eigen::VectorXd u = Eigen::Map<const Eigen::VectorXd>(moved_.data->qvel, count());
+  readPose();
+  setSpeeds(u);
+  return u;
+}
+
 }  // namespace mujoco
 
 BuiltTree buildMujoco(const Mechanism& mechanism, const WeldedMechanism& welded) {

@@ -116,9 +116,28 @@ Model treeModel(const Mechanism& mechanism, const WeldedMechanism& welded, const
   return parsedTree(mechanism, welded, tree, {});
 }
 
-Model connectedModel(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree, bool hard) {
+namespace {
+
+/// MuJoCo's armature acts on a ball's speeds as our rotors do.
+void addRotors(const Mechanism& mechanism, const WeldTree& tree, mjModel& model) {
+  for (const std::size_t j : tree.cut)
+    if (mechanism.joints()[j].rotor_inertia != 0)
+      throw std::domain_error(fmt::format("it moves no rotor of the cut joint {}", mechanism.joints()[j].name));
+  for (const WeldStep& step : tree.steps) {
+    if (step.joint == WeldStep::none) continue;
+    const int body = bodyOf(model, step.to);
+    std::fill_n(model.dof_armature + model.body_dofadr[body], model.body_dofnum[body],
+                mechanism.joints()[step.joint].rotor_inertia);
+  }
+}
+
+}  // namespace
+
+Model connectedModel(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree, bool hard,
+                     bool with_rotors) {
   const std::vector<Pin> pins = pinsOf(mechanism, welded, tree);
   Model model = parsedTree(mechanism, welded, tree, pins);
+  if (with_rotors) addRotors(mechanism, tree, *model);
   mj_setConst(model.get(), dataOf(*model).get());  // softness counts by the inertias at the reference pose
   for (std::size_t k = 0; k < pins.size(); ++k) {  // it moves the points, and the text rounds them
     mjtNum* points = model->eq_data + mjNEQDATA * k;

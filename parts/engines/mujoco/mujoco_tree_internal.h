@@ -16,7 +16,8 @@ Model treeModel(const Mechanism& mechanism, const WeldedMechanism& welded, const
 int bodyOf(const mjModel& model, std::size_t weld);
 /// The same tree, with the cut joints closed by MuJoCo's own `connect` and `weld`: at its default softness, or as hard
 /// as it allows. Throws std::domain_error for a slide or a universal joint.
-Model connectedModel(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree, bool hard);
+Model connectedModel(const Mechanism& mechanism, const WeldedMechanism& welded, const WeldTree& tree, bool hard,
+                     bool with_rotors = false);
 
 /// The tree's speeds.
 class TreeSpeeds : public SpeedsOfWelds {
@@ -36,6 +37,9 @@ class TreeSpeeds : public SpeedsOfWelds {
   std::optional<Own> own(std::size_t joint, int index) const override;
   Eigen::VectorXd forces(const Eigen::VectorXd& accelerations) override;
   Eigen::VectorXd ownInverse(const Eigen::VectorXd& accelerations, bool hard) override;
+  std::vector<Rigidity> rigidities() const override;
+  void startTime(const Rigidity& rigidity) override;
+  Eigen::VectorXd stepTime(const Eigen::VectorXd& forces) override;
 
  private:
   using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
@@ -63,6 +67,7 @@ class TreeSpeeds : public SpeedsOfWelds {
   std::vector<Vector6d> biases_;
   std::vector<double> kept_;
   std::array<Connected, 2> connected_;  ///< soft and hard; made on first use
+  Connected moved_;                     ///< in time
 };
 
 }  // namespace ursula::mujoco

@@ -74,10 +74,10 @@ std::string inTimeTable(const SideBySide& found) {
   if (rows.empty()) return "";
   const std::string caption = fmt::format(
       "The first {} of the motion, moved by the engine with its own closures under the NOC's efforts. The largest gap "
-      "of the loops; sag of the platform's joints with the motors where they are; how far the platform leaves the "
-      "motion, which grows where the motion is unstable; energy gained beside all work done; time a step, as measured "
-      "here.",
-      quantity(found.moved, "s"));
+      "of the loops; sag of {} with the motors where they are; how far {} leaves the motion, which grows where the "
+      "motion is unstable; energy gained beside all work done; time a step, as measured here.",
+      quantity(found.moved, "s"), found.model.empty() ? "the platform's joints" : "the output body",
+      found.model.empty() ? "the platform" : "it");
   return rendered(engines_in_time_html, {{"caption", caption}, {"rows", rows}}) + "\n";
 }
 
@@ -118,6 +118,7 @@ std::string sideBySideHtml(const SideBySide& found) {
                    {"efforts", "Efforts", effortsTable(found)},
                    {"code", "The exact recipe in each engine's own calls", codeBlocks(found)},
                    {"time", "The closed loop in time", inTimeTable(found)}};
+  page.style = ".wide caption { max-width: calc(100vw - 2.5rem); }";  // it is read without scrolling a wide table
   page.footer =
       "<p>The same in numbers: <a href=\"engines.json\">engines.json</a>, <a href=\"engines.csv\">engines.csv</a>; "
       "all efforts: <a href=\"efforts.csv\">efforts.csv</a>. "

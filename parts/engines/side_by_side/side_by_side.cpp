@@ -40,16 +40,25 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+/// A machine that an engine moves in time, and what it should do.
+struct Moving {
+  struct State : MechanismCalls::Moved {
+    double sag = 0;
+  };
+  std::function<State()> start;
+  std::function<void(const Eigen::VectorXd& efforts)> step;
+  std::function<State()> read;
+  std::function<Eigen::VectorXd(double t)> efforts;
+  std::function<Vector3d(double t)> position;
+  double length = 1;
+};
+
 class MovedLoop {
  public:
-  MovedLoop(const LoopEngine& engine, const Rigidity& rigidity, EngineReference& reference)
-      : engine_(engine), reference_(reference), loop_(engine.stepped(rigidity)) {
-    out_.rigidity = rigidity;
-  }
+  MovedLoop(const Moving& moving, const Rigidity& rigidity) : moving_(moving) { out_.rigidity = rigidity; }
 
   TimeSteppingResult move(int steps) {
-    loop_->start(reference_.at(0).motion);
-    loop_->read(is_);
+    is_ = moving_.start();
     const double energy = is_.energy;
     while (out_.steps < steps && step()) {
     }
@@ -61,23 +70,22 @@ class MovedLoop {
 
  private:
   /// Throws if a loop is wide open, because later states say nothing and may make an engine end the process.
-  void requireClosed(const SteppedLoop::State& state) {
-    const double gap = largestGap(state.tree, engine_.manipulator());
+  void requireClosed(double gap) {
     out_.gap = larger(out_.gap, gap);
-    if (!(gap < reference_.length() / 10)) throw std::runtime_error(fmt::format("a loop is open by {:.2g} m", gap));
+    if (!(gap < moving_.length / 10)) throw std::runtime_error(fmt::format("a loop is open by {:.2g} m", gap));
   }
 
   /// Returns false if the engine gives up.
   bool step() {
     const double step = out_.rigidity.step;
-    const Vector6d efforts = reference_.at((out_.steps + out_.rigidity.instant) * step).efforts;
-    SteppedLoop::State next;
+    const Eigen::VectorXd efforts = moving_.efforts((out_.steps + out_.rigidity.instant) * step);
+    Moving::State next;
     try {
       const auto start = std::chrono::steady_clock::now();
-      loop_->step(efforts);
+      moving_.step(efforts);
       seconds_.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-      loop_->read(next);
-      requireClosed(next);
+      next = moving_.read();
+      requireClosed(next.gap);
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& words) {
@@ -87,18 +95,16 @@ class MovedLoop {
     const double of_motors = efforts.dot(next.q - is_.q), of_others = step / 2 * (is_.power + next.power);
     work_ += of_motors + of_others;
     out_.work += std::abs(of_motors) + std::abs(of_others);
-    out_.away = larger(out_.away, (next.p - reference_.at(out_.steps * step + step).motion.p).norm());
-    out_.sag = larger(out_.sag, sag(next.tree, engine_.manipulator()));
+    out_.away = larger(out_.away, (next.p - moving_.position(out_.steps * step + step)).norm());
+    out_.sag = larger(out_.sag, next.sag);
     is_ = next;
     ++out_.steps;
     return true;
   }
 
-  const LoopEngine& engine_;
-  EngineReference& reference_;
-  std::unique_ptr<SteppedLoop> loop_;
+  const Moving& moving_;
   TimeSteppingResult out_;
-  SteppedLoop::State is_;
+  Moving::State is_;
   double work_ = 0;
   std::vector<double> seconds_;
 };
@@ -197,11 +203,12 @@ std::vector<Recipe> recipesOf(const LoopEngineKind& kind) {
   return out;
 }
 
-TimeSteppingResult moveInTime(const LoopEngine& engine, const Rigidity& rigidity, EngineReference& reference,
-                              double moved) {
+template <class Make>
+TimeSteppingResult moveInTime(const Rigidity& rigidity, double moved, const Make& make) {
   const int steps = std::max(1, static_cast<int>(std::floor(moved / rigidity.step)));
   try {
-    return MovedLoop(engine, rigidity, reference).move(steps);
+    const Moving moving = make();
+    return MovedLoop(moving, rigidity).move(steps);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& words) {  // the engine gave up before the first step
@@ -211,6 +218,76 @@ TimeSteppingResult moveInTime(const LoopEngine& engine, const Rigidity& rigidity
     out.gap = out.sag = out.away = out.energy = std::numeric_limits<double>::quiet_NaN();
     return out;
   }
+}
+
+Moving movingManipulator(const LoopEngine& engine, const Rigidity& rigidity, EngineReference& reference) {
+  const std::shared_ptr<SteppedLoop> loop = engine.stepped(rigidity);
+  const auto read = [loop, &engine] {
+    SteppedLoop::State is;
+    loop->read(is);
+    Moving::State out;
+    out.q = is.q;
+    out.p = is.p;
+    out.gap = largestGap(is.tree, engine.manipulator());
+    out.energy = is.energy;
+    out.power = is.power;
+    out.sag = sag(is.tree, engine.manipulator());
+    return out;
+  };
+  return {[=, &reference] { return loop->start(reference.at(0).motion), read(); },
+          [loop](const Eigen::VectorXd& efforts) { loop->step(Vector6d(efforts)); },
+          read,
+          [&reference](double t) { return Eigen::VectorXd(reference.at(t).efforts); },
+          [&reference](double t) { return reference.at(t).motion.p; },
+          reference.length()};
+}
+
+/// Where the loops hold the output body's mass centre, by this program.
+class OutputOfLoops {
+ public:
+  explicit OutputOfLoops(const MechanismAlong& along) : along_(along) {}
+
+  Vector3d along(double t) {
+    along_.motion().inverseDynamics(t, work_);
+    return place();
+  }
+  Eigen::VectorXd efforts(double t) { return along_.motion().inverseDynamics(t, work_); }
+  Vector3d at(const Eigen::VectorXd& q) {
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(q.size());
+    loops::LoopPose pose = work_.pose;
+    along_.solver().moveTo(q, pose);
+    along_.solver().kinematics({0, q, none, none}, pose, work_);
+    return place();
+  }
+
+ private:
+  Vector3d place() const {
+    const Mechanism& mechanism = along_.solver().mechanism();
+    return work_.bodies[mechanism.output()].displacement * mechanism.bodies()[mechanism.output()].center_of_mass;
+  }
+
+  const MechanismAlong& along_;
+  LoopWork work_;
+};
+
+Moving movingMechanism(MechanismCalls& engine, const Rigidity& rigidity, const MechanismAlong& along) {
+  const auto output = std::make_shared<OutputOfLoops>(along);
+  const auto stateOf = [output](const MechanismCalls::Moved& is) {
+    Moving::State out;
+    static_cast<MechanismCalls::Moved&>(out) = is;
+    out.sag = (is.p - output->at(is.q)).norm();
+    return out;
+  };
+  const double last = along.motion().trajectory().duration();
+  return {[=, &engine, &along] {
+            output->efforts(0);
+            return stateOf(engine.start(rigidity, along.motion().trajectory().at(0)));
+          },
+          [&engine](const Eigen::VectorXd& efforts) { engine.step(efforts); },
+          [=, &engine] { return stateOf(engine.moved()); },
+          [=](double t) { return output->efforts(std::min(t, last)); },
+          [=](double t) { return output->along(std::min(t, last)); },
+          along.solver().mechanism().length()};
 }
 
 EngineResult named(const LoopEngineKind& kind) {
@@ -269,8 +346,9 @@ RecipeResult askMechanism(const Comparison& comparison, Recipe recipe, const Ask
   }
 }
 
-void askMechanismEngine(const Mechanism& mechanism, const Comparison& comparison,
-                        const std::vector<MotorMotion>& motions, EngineResult& out) {
+void askMechanismEngine(const MechanismAlong& along, const Comparison& comparison,
+                        const std::vector<MotorMotion>& motions, double moved, EngineResult& out) {
+  const Mechanism& mechanism = along.solver().mechanism();
   if (out.kind->make_mechanism == nullptr) throw std::runtime_error("it takes no mechanisms");
   const std::unique_ptr<MechanismCalls> engine = out.kind->make_mechanism(mechanism);
   const AskEfforts efforts_of = [&](Recipe recipe, std::size_t k) {
@@ -281,6 +359,8 @@ void askMechanismEngine(const Mechanism& mechanism, const Comparison& comparison
   for (const Recipe recipe : recipesOf(*out.kind))
     if (out.kind->in_tree || recipe == Recipe::exact || recipe == Recipe::no_bias)
       out.recipes.push_back(askMechanism(comparison, recipe, efforts_of));
+  for (const Rigidity& rigidity : engine->rigidities())
+    out.in_time.push_back(moveInTime(rigidity, moved, [&] { return movingMechanism(*engine, rigidity, along); }));
   for (const std::size_t j : engine->cutJoints()) out.cut.push_back(mechanism.joints()[j].name);
 }
 
@@ -330,7 +410,8 @@ SideBySide engineSideBySide(const Scenario& scenario, const SideBySideOptions& o
         found.recipes.push_back(comparison.ask(
             recipe, [&](Recipe by, std::size_t k) { return Eigen::VectorXd(engine->efforts(by, motions[k])); }));
       for (const Rigidity& rigidity : engine->rigidities())
-        found.in_time.push_back(moveInTime(*engine, rigidity, reference, out.moved));
+        found.in_time.push_back(
+            moveInTime(rigidity, out.moved, [&] { return movingManipulator(*engine, rigidity, reference); }));
     });
   });
   return out;
@@ -342,6 +423,7 @@ SideBySide engineSideBySide(const MechanismScenario& scenario, const SideBySideO
   SideBySide out;
   out.scenario = scenario.name;
   out.model = scenario.model.filename().string();
+  out.moved = std::min(options.moved, scenario.trajectory->duration());
   for (std::size_t k = 0; k < mechanism.motorCount(); ++k)
     out.motors.push_back({mechanism.motor(k).name, mechanism.motor(k).slides() ? "N" : "N m"});
   std::vector<MotorMotion> motions;
@@ -353,7 +435,7 @@ SideBySide engineSideBySide(const MechanismScenario& scenario, const SideBySideO
   }
   const Comparison comparison(std::move(instants), out);
   askEngines(options, out, [&](const LoopEngineKind& kind) {
-    return filled(kind, [&](EngineResult& found) { askMechanismEngine(mechanism, comparison, motions, found); });
+    return filled(kind, [&](EngineResult& found) { askMechanismEngine(along, comparison, motions, out.moved, found); });
   });
   return out;
 }
