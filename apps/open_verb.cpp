@@ -71,14 +71,18 @@ int openResults(const std::string& folder) {
   const std::string page = pageIn(folder).string();
   report::refuseMixture(folder);
   writeOutput("-", page + "\n");
-  const std::string command = browserCommand();
-  if (command.empty())
+  if (!showPage(page))
     throw UsageError("no browser: neither $BROWSER nor xdg-open is there; open the page above yourself");
-  startDetached({"/bin/sh", "-c", command, "sh", page});
   return exit_passed;
 }
 
 }  // namespace
+
+bool showPage(const std::string& page) {
+  const std::string command = browserCommand();
+  if (!command.empty()) startDetached({"/bin/sh", "-c", command, "sh", page});
+  return !command.empty();
+}
 
 void addOpen(CLI::App& app, std::function<int()>& run) {
   const auto folder = std::make_shared<std::string>();

@@ -111,12 +111,11 @@ Suggested suggested(const AnyScenario& scenario) {
 
 }  // namespace
 
-std::optional<std::vector<BlindSpot>> blindSpotsOf(const AnyScenario& scenario) {
+std::optional<std::vector<BlindSpot>> blindSpotsOf(const Scenario* manipulator, const MechanismScenario* mechanism) {
   const BlindSpotFinder* finder = partBlindSpots();
   if (finder == nullptr) return std::nullopt;
-  if (scenario.manipulator)
-    return alongMotion(*scenario.manipulator, [&] { return finder->manipulator(*scenario.manipulator); });
-  return alongLoops(*scenario.mechanism, [&] { return finder->mechanism(*scenario.mechanism); });
+  if (manipulator != nullptr) return alongMotion(*manipulator, [&] { return finder->manipulator(*manipulator); });
+  return alongLoops(*mechanism, [&] { return finder->mechanism(*mechanism); });
 }
 
 void requireSuggestion(const std::string& out) {

@@ -8,8 +8,13 @@
 
 namespace ursula {
 
-/// The mistakes that a scenario cannot show; nullopt if this build knows none. Throws ScenarioError.
-std::optional<std::vector<BlindSpot>> blindSpotsOf(const AnyScenario& scenario);
+/// The mistakes that a scenario of one machine or the other cannot show; nullopt if this build knows none. Throws
+/// ScenarioError.
+std::optional<std::vector<BlindSpot>> blindSpotsOf(const Scenario* manipulator, const MechanismScenario* mechanism);
+inline std::optional<std::vector<BlindSpot>> blindSpotsOf(const AnyScenario& scenario) {
+  return blindSpotsOf(scenario.manipulator ? &*scenario.manipulator : nullptr,
+                      scenario.mechanism ? &*scenario.mechanism : nullptr);
+}
 
 /// Throws UsageError if this build knows no mistakes, or if a file of that name exists.
 void requireSuggestion(const std::string& out);

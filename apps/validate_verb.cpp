@@ -12,6 +12,7 @@
 #include "apps/mechanism.h"
 #include "apps/output.h"
 #include "apps/progress.h"
+#include "apps/suggest.h"
 #include "apps/suite/suite.h"
 #include "apps/validate_options.h"
 #include "apps/verbs.h"
@@ -126,6 +127,7 @@ int validateOne(const SuiteMember& member, const ValidateOptions& options, const
   const std::vector<std::string> older = {options.against.empty() ? "" : summaryIn(options.against)};
   const Stopwatch watch;
   ValidationResult result = judge(member, options);
+  result.blind = blindSpotsOf(member.scenario ? &*member.scenario : nullptr, member.mechanism.get());
   addResults(result, out, "", watch.time(), Place::alone);
   out.commit();
   printAll({member}, {""}, {""}, dir, options, older, [&] { printResult(result, dir, options.form()); });
@@ -181,7 +183,9 @@ int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions
   suite.judge = [validation, &options](const SuiteMember& member) {
     if (!options.quiet && member.scenario && member.torques.empty())
       sayWork(*member.scenario, validation.time_limit, !options.solver.command.empty());
-    return judgeInSuite(member, options, validation);
+    ValidationResult result = judgeInSuite(member, options, validation);
+    result.blind = blindSpotsOf(member.scenario ? &*member.scenario : nullptr, member.mechanism.get());
+    return result;
   };
   std::optional<SuiteProgress> progress;
   if (!options.quiet) progress.emplace(members.size());

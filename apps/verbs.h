@@ -55,6 +55,8 @@ auto alongMotion(const Scenario& scenario, Run&& run) {
 
 /// Writes to `file` atomically, or to standard output if it is "-" or empty.
 void writeOutput(const std::string& file, const std::string& content);
+/// Shows a page in the user's browser without waiting for it; returns false if there is none.
+bool showPage(const std::string& page);
 /// Throws UsageError if `--out` names a file; it may be empty, or a folder that does not exist.
 void refuseFile(const std::string& out);
 /// Throws UsageError if `--out` names a folder with a validation's results, among which other files must not be.

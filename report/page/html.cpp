@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/text.h"
 #include "model/scenario.h"
 #include "report/page/html_template.h"
@@ -49,6 +51,23 @@ std::string factsTable(const char* caption, const Facts& facts, const std::strin
   return rendered(facts_html, {{"caption", caption}, {"facts", listOf(facts, row)}, {"command", command}});
 }
 
+/// The mistakes of each kind and term in one row.
+Facts blindFacts(const ValidationResult& result) {
+  Facts out;
+  if (!result.blind) return out;
+  for (const BlindSpot& one : *result.blind) {
+    std::string key = name(one.cause.kind);
+    if (!one.cause.term.empty()) key += ": " + one.cause.term;
+    std::replace(key.begin(), key.end(), '_', ' ');
+    const auto same = std::find_if(out.begin(), out.end(), [&](const auto& fact) { return fact.first == key; });
+    if (same == out.end())
+      out.emplace_back(key, one.mistake);
+    else
+      same->second += "; " + one.mistake;
+  }
+  return out;
+}
+
 Facts printed(Facts facts) {
   for (auto& [key, text] : facts) text = formulaInPrint(text);
   return facts;
@@ -86,6 +105,8 @@ std::vector<PageSection> parts(const ValidationResult& result, const Picture* pi
           {"statistics", "Error statistics", statisticsTable(result)},
           {"input", "Input", cardOf(result, picture)},
           {"findings", "Findings", factsTable("Facts that are not judged", printed(findingTexts(result)))},
+          {"blind", "What this scenario cannot show",
+           factsTable("Mistakes that machine and motion would let pass", blindFacts(result))},
           {"provenance", "Provenance", factsTable("The sources of this result", result.provenance, command(result))}};
 }
 

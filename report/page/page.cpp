@@ -48,7 +48,7 @@ std::string pageHtml(const Page& page) {
                               {"links", linksHtml(page.sections)},
                               {"sections", sectionsHtml(page.sections)},
                               {"footer", page.footer},
-                              {"data", page.charts.empty() ? "" : chartData(page.title, page.charts)},
+                              {"data", page.data.empty() && !page.charts.empty() ? chartData(page.title, page.charts) : page.data},
                               {"script", std::string(page.script)}}) +
          "\n";
 }

@@ -35,6 +35,7 @@ struct Page {
   std::vector<PageSection> sections;
   std::string footer;        ///< HTML
   std::vector<Plot> charts;  ///< drawn by the script in the sections' figures
+  std::string data;          ///< of the script, as JSON; that of the charts if empty
   std::string_view script;   ///< may be empty
   std::string_view style;    ///< style of its own sections, added to the report's; may be empty
 };

@@ -63,9 +63,9 @@ Json eventsJson(const ValidationResult& result) {
   return out;
 }
 
-/// Writes JSON that can stand in a <script> block: without "<", so that neither "</script" nor "<!--" ends or breaks
-/// it, and without characters that HTML does not have. All of these occur in strings only.
-std::string inScript(const Json& json) {
+}  // namespace
+
+std::string inScript(const nlohmann::ordered_json& json) {
   std::string out = jsonText(json);
   for (const auto& [odd, escape] :
        {std::pair<std::string, const char*>{"<", "\\u003c"}, {"\xEF\xBF\xBE", "\\ufffe"}, {"\xEF\xBF\xBF", "\\uffff"}})
@@ -73,8 +73,6 @@ std::string inScript(const Json& json) {
       out.replace(at, odd.size(), escape);
   return out;
 }
-
-}  // namespace
 
 nlohmann::ordered_json screenNumber(double value) {
   return std::isfinite(value) ? Json::parse(fmt::format("{:.6g}", value)) : Json();

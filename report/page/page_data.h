@@ -24,6 +24,10 @@ nlohmann::ordered_json machineJson(const Picture& picture, const ValidationResul
 /// Returns a mechanism's bodies, joints and poses at its picture's instants, with the result's efforts there.
 nlohmann::ordered_json machineJson(const MechanismPicture& picture, const ValidationResult& result);
 
+/// Writes JSON that can stand in a <script> block: without "<", so that neither "</script" nor "<!--" ends or breaks
+/// it, and without characters that HTML does not have. All of these occur in strings only.
+std::string inScript(const nlohmann::ordered_json& json);
+
 /// Returns `value` with six digits, more than a screen shows; null if it is not finite.
 nlohmann::ordered_json screenNumber(double value);
 nlohmann::ordered_json screenNumbers(const std::vector<double>& values);

@@ -40,7 +40,7 @@ export function extent(machine, size) {
     return all(below, tagWidth(machine.wrong.includes(k)) / 2, tag_height / 2);
   });
   const rails = machine.legs.flatMap((leg) => leg.rails.flatMap(({ from, to }) => [...points(from), ...points(to)]));
-  return [...all(linkEnds(machine), joint, joint), ...all(rails, 0.02, 0.02), ...all(points(machine.p), 0.016, 0.016), ...tags];
+  return [...all(linkEnds(machine), joint, joint), ...all(rails, 0.02, 0.02), ...all(points(machine.path ?? machine.p), 0.016, 0.016), ...tags];
 }
 
 /** The joints of all legs as layers.js needs them. Efforts are positive about the axis reversed. */
@@ -128,7 +128,7 @@ export function makeMachine(machine, size) {
   group.add(outlined(plate(base_points, 0.02 * size), paint(color("metal"), translucent), color("quiet")));
   const platform = outlined(plate(points(machine.hold), 0.04 * size), paint(color("plate"), { transparent: true, opacity: 0.85 }), color("quiet"));
   const legs = machine.legs.map((leg, k) => makeLeg(leg, k, size, machine.wrong.includes(k)));
-  const path = new Line(new BufferGeometry().setFromPoints(points(machine.p)), new LineBasicMaterial({ color: color("text") }));
+  const path = new Line(new BufferGeometry().setFromPoints(points(machine.path ?? machine.p)), new LineBasicMaterial({ color: color("text") }));
   const P = ball(0.016 * size, paint(color("text")));
   group.add(platform, path, P, ...legs.map((leg) => leg.group));
   const update = (place) => {

@@ -6,7 +6,8 @@ import { addPlayer } from "./player.js";
 import { addStage } from "./stage.js";
 import { watchTheme } from "./theme.js";
 
-const data = JSON.parse(document.getElementById("data").textContent);
+// A page whose own script moves the machine gives its data, and is told of the stage.
+const data = globalThis.ursula_page ?? JSON.parse(document.getElementById("data").textContent);
 const over_time = data.plots.filter((plot) => plot.overTime);
 const duration = data.machine ? data.machine.t.at(-1) : Math.max(0, ...over_time.map((plot) => plot.x.at(-1) ?? 0));
 const clock = new Clock(duration);
@@ -18,6 +19,7 @@ function addMachine(host) {
   const stage = addStage(host, data.machine, clock);
   if (duration > 0) addPlayer(document, data.events, clock, stage);
   watchTheme(() => stage?.repaint());
+  if (stage) document.dispatchEvent(new CustomEvent("ursula:stage", { detail: stage }));
   performance.mark("report:moving");
 }
 

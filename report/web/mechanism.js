@@ -9,6 +9,12 @@ const start = { index: 0, share: 0 };
 const vector = (numbers, k = 0) => new Vector3(...numbers.slice(3 * k, 3 * k + 3));
 const pointsOf = (body) => Array.from({ length: body.points.length / 3 }, (_, k) => vector(body.points, k));
 
+/** A page where the machine moves freely has its commanded path apart. */
+function pathOf(machine) {
+  const along = machine.path ?? machine.p;
+  return Array.from({ length: along.length / 3 }, (_, k) => vector(along, k));
+}
+
 const poseAt = (body, place) => ({ p: vectorAt(body.p, place), q: quaternionAt(body.q, place) });
 const moved = (point, { p, q }) => point.clone().applyQuaternion(q).add(p);
 
@@ -43,7 +49,7 @@ const axisOf = (machine, joint, k, place) =>
 /** All that the machine, its labels and its path may cover, as things of fit.js. */
 export function extent(machine, size) {
   const all = (at, ...half) => at.map((point) => ({ at: point, half: half.map((each) => each * size) }));
-  const path = Array.from({ length: machine.p.length / 3 }, (_, k) => vector(machine.p, k));
+  const path = pathOf(machine);
   const tags = motorJoints(machine).flatMap((joint) => {
     const { width } = inked(joint.name, isWrong(machine, joint));
     return all([placeOf(machine, joint, start)], ((width / 64) * tag_height) / 2, tag_drop + tag_height / 2);
@@ -148,7 +154,7 @@ export function makeMachine(machine, size) {
   let moving = 0;
   const bodies = machine.bodies.map((body) => makeBody(body, body.fixed ? 0 : moving++, size));
   const joints = machine.joints.map((joint) => makeJoint(machine, joint, size));
-  const path = Array.from({ length: machine.p.length / 3 }, (_, k) => vector(machine.p, k));
+  const path = pathOf(machine);
   const line = new Line(new BufferGeometry().setFromPoints(path), new LineBasicMaterial({ color: color("text") }));
   const output = ball(0.016 * size, paint(color("text")));
   group.add(...bodies, ...joints.map((joint) => joint.group), line, output);

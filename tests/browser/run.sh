@@ -16,7 +16,7 @@ if ! cmp -s "$here/package-lock.json" "$work/installed.json"; then
   cp "$here/package-lock.json" "$work/installed.json" || exit 1
 fi
 status=0
-for test in report pages; do
+for test in report pages view; do
   node "$here/../validation/${test}_browser_test.mjs" "$samples" "$work" "$chromium" || status=$?
 done
 exit "$status"

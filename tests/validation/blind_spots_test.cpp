@@ -6,9 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
-#include "model/trajectory.h"
+#include "model/trajectories/trajectories.h"
 #include "parts/exchange/mechanism_reader.h"
 #include "validation/subject/parameters.h"
 #include "validation/subject/subject.h"
@@ -89,11 +90,25 @@ const Plant plants[] = {
      {CauseKind::reference_point, "", "distal", "", "", {}, {}, {}, 4}},
 };
 
+/// A motion that turns and moves at once, about the middle of the scenario's.
+Scenario turning(Scenario scenario) {
+  const Motion<double> middle = scenario.trajectory->at(scenario.trajectory->duration() / 2);
+  std::vector<TimedPose> poses;
+  for (const auto& [x, y, z] : {std::tuple(0.0, 0.0, 0.0), {0.1, -0.06, 0.08}, {-0.05, 0.1, -0.07}, {0.0, 0.0, 0.0}}) {
+    const Eigen::AngleAxisd turn(Vector3d(x, y, z).norm(), Vector3d(x + 1e-9, y, z).normalized());
+    const Eigen::Quaterniond q(Matrix3d(turn.toRotationMatrix() * middle.Q));
+    poses.push_back({0.5 * static_cast<double>(poses.size()), middle.p + 0.3 * Vector3d(z, x, y),
+                     Eigen::Vector4d(q.w(), q.x(), q.y(), q.z())});
+  }
+  scenario.trajectory = makeWaypoints(poses);
+  return scenario;
+}
+
 class Planted : public testing::TestWithParam<std::tuple<const char*, Plant>> {};
 
 TEST_P(Planted, isListedAndElseNot) {
   const auto& [kind, plant] = GetParam();
-  const Scenario telling = changed(starting(kind), tell);
+  const Scenario telling = changed(turning(starting(kind)), tell);
   EXPECT_TRUE(lists(blind(changed(telling, plant.change)), plant.cause));
   for (const BlindSpot& one : blind(telling))
     EXPECT_FALSE(lists({one}, plant.cause) && plant.cause.kind != CauseKind::reference_point &&
@@ -125,7 +140,7 @@ TEST(BlindSpots, areNumbersWithoutEffect) {
   const std::vector<BlindSpot> found = blind(scenario);
   int blind_numbers = 0;
   for (const MachineNumber& number : machineNumbers(scenario.manipulator->parameters())) {
-    if (number.leg >= 0 || number.quantity != Quantity::inertia || number.entry >= 3) continue;
+    if (number.leg >= 0 || number.quantity != Quantity::platform_inertia || number.entry >= 3) continue;
     const Scenario other = changed(scenario, [&](ManipulatorParameters& m) { number.set(m, 1.1 * number.get(m)); });
     const bool listed = lists(found, {CauseKind::parameter, "", "platform", number.path});
     blind_numbers += listed ? 1 : 0;
@@ -137,7 +152,7 @@ TEST(BlindSpots, areNumbersWithoutEffect) {
 TEST(BlindSpots, areThoseOfAllLegsOnce) {
   const Scenario scenario = changed(starting("URS"), [](ManipulatorParameters& m) { m.gravity.setZero(); });
   for (const BlindSpot& one : blind(scenario))
-    if (one.cause.term == "gravity") EXPECT_EQ(one.cause.leg, 0) << one.mistake;
+    EXPECT_TRUE(one.cause.term != "gravity" || one.cause.leg == 0) << one.mistake;
 }
 
 TEST(BlindSpots, areMoreUnderATolerance) {
