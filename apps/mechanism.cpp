@@ -16,6 +16,7 @@
 #include "model/scenario_files.h"
 #include "report/page/scenario_picture.h"
 #include "validation/mechanism/validate_mechanism.h"
+#include "validation/outside/given_motion.h"
 
 namespace ursula {
 std::vector<std::pair<std::string, std::string>> effortColumns(const std::vector<std::string>& texts,
@@ -122,17 +123,21 @@ int checkMechanism(const MechanismScenario& scenario, const std::string& picture
   });
 }
 
-ValidationResult judgeMechanism(const MechanismScenario& scenario, const std::string& torques,
-                                const std::vector<std::string>& map, const ExternalSolverOptions& solver,
+ValidationResult judgeMechanism(const MechanismScenario& scenario, const OtherSubject& other,
                                 const MechanismOptions& options) {
   return alongLoops(scenario, [&] {
-    if (!solver.command.empty()) return validateExternalSolver(scenario, solver, options);
+    if (!other.solver.command.empty())
+      return other.simulates ? validateExternalSimulator(scenario, other.solver, options)
+                             : validateExternalSolver(scenario, other.solver, options);
+    std::shared_ptr<const GivenEfforts> given;
+    if (!other.torques.empty())
+      given = std::make_shared<const GivenEfforts>(readMotorEfforts(other.torques, *scenario.mechanism,
+                                                                    scenario.trajectory->duration(),
+                                                                    effortColumns(other.map, *scenario.mechanism)));
+    if (!other.trajectory.empty()) return validateMotion(scenario, other.trajectory, given.get(), options);
     MechanismSubject subject;
-    if (!torques.empty()) {
-      subject.given = std::make_shared<const GivenEfforts>(readMotorEfforts(
-          torques, *scenario.mechanism, scenario.trajectory->duration(), effortColumns(map, *scenario.mechanism)));
-      subject.about = {subject.given->name, Formulation::external, CalledBy::torques};
-    }
+    subject.given = given;
+    if (given) subject.about = {given->name, Formulation::external, CalledBy::torques};
     return validateMechanism(scenario, subject, options);
   });
 }
