@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "base/csv.h"
-#include "base/csv_digits.h"
 #include "base/csv_dialect.h"
+#include "base/csv_digits.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "model/mechanism_keys.h"

@@ -1,4 +1,5 @@
 #include <pybind11/stl.h>
+#include <ursula/validate.h>
 
 #include <cmath>
 #include <memory>
@@ -10,7 +11,6 @@
 #include "python/judging.h"
 #include "python/motion.h"
 #include "python/result.h"
-#include "validation/outside/pieces.h"
 
 namespace ursula::python {
 namespace py = pybind11;

@@ -7,8 +7,8 @@
 
 #include "nocsolver/errors.h"
 #include "simbody/simbody_loop.h"
-#include "validation/samples/asked_instants.h"
 #include "validation/samples/pointwise.h"
+#include "validation/subject/asked_instants.h"
 
 namespace ursula {
 namespace {

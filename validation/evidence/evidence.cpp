@@ -8,7 +8,7 @@
 #include "simbody/simbody_loop.h"
 #include "validation/replay/observed_order.h"
 #include "validation/replay/windows.h"
-#include "validation/samples/asked_instants.h"
+#include "validation/subject/asked_instants.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {

@@ -9,7 +9,7 @@
 
 #include "model/instants.h"
 #include "simbody/simbody_mechanism.h"
-#include "validation/samples/asked_instants.h"
+#include "validation/subject/asked_instants.h"
 
 namespace ursula {
 namespace {

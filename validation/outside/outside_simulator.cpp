@@ -17,7 +17,7 @@
 #include "validation/findings/findings.h"
 #include "validation/outside/needed_efforts.h"
 #include "validation/outside/pieces.h"
-#include "validation/samples/asked_instants.h"
+#include "validation/subject/asked_instants.h"
 #include "validation/verdict/effort_words.h"
 
 namespace ursula {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/scenario.h"
+#include "validation/outside/pieces.h"
 #include "validation/validate.h"
 #include "validation/verdict/result.h"
 

@@ -1,4 +1,4 @@
-#include "validation/samples/asked_instants.h"
+#include "validation/subject/asked_instants.h"
 
 #include <algorithm>
 #include <cmath>
