@@ -18,6 +18,7 @@
 #include "model/torque_names.h"
 #include "report/page/scenario_picture.h"
 #include "validation/mechanism/validate_mechanism.h"
+#include "validation/outside/given_motion.h"
 
 namespace ursula {
 AnyScenario readAny(const std::string& file, std::initializer_list<std::string> written) {
@@ -103,16 +104,19 @@ CheckedScenario checkMechanism(const MechanismScenario& scenario, const std::str
   });
 }
 
-ValidationResult judgeMechanism(const MechanismScenario& scenario, const std::string& torques,
-                                const std::vector<std::string>& map, const ExternalSolverOptions& solver,
+ValidationResult judgeMechanism(const MechanismScenario& scenario, const OtherSubject& other,
                                 const MechanismOptions& options) {
   return alongLoops(scenario, [&] {
-    if (!solver.command.empty()) return validateExternalSolver(scenario, solver, options);
+    if (!other.solver.command.empty())
+      return other.simulates ? validateExternalSimulator(scenario, other.solver, options)
+                             : validateExternalSolver(scenario, other.solver, options);
+    std::shared_ptr<const GivenEfforts> given;
+    if (!other.torques.empty())
+      given = std::make_shared<const GivenEfforts>(readEffortsAloud(other.torques, other.map, scenario));
+    if (!other.trajectory.empty()) return validateMotion(scenario, other.trajectory, given.get(), options);
     MechanismSubject subject;
-    if (!torques.empty()) {
-      subject.given = std::make_shared<const GivenEfforts>(readEffortsAloud(torques, map, scenario));
-      subject.about = {subject.given->name, Formulation::external, CalledBy::torques};
-    }
+    subject.given = given;
+    if (given) subject.about = {given->name, Formulation::external, CalledBy::torques};
     return validateMechanism(scenario, subject, options);
   });
 }

@@ -47,9 +47,15 @@ int inverseOfMechanism(const MechanismScenario& scenario, int samples, const std
 /// `picture` if that is not empty; as the model places it if it cannot move. Throws ScenarioError.
 CheckedScenario checkMechanism(const MechanismScenario& scenario, const std::string& picture, std::string& freedoms);
 
-/// Judges this program's solver, a command if there is one, or the efforts of a file if `torques` is not empty.
-ValidationResult judgeMechanism(const MechanismScenario& scenario, const std::string& torques,
-                                const std::vector<std::string>& map, const ExternalSolverOptions& solver,
+/// Whom the options of `validate` name instead of this program's solver; members that do not apply are empty.
+struct OtherSubject {
+  std::string torques, trajectory;  ///< files; a trajectory may have its torques
+  std::vector<std::string> map;     ///< of the torques
+  ExternalSolverOptions solver;     ///< a command
+  bool simulates = false;           ///< the command is a simulator
+};
+/// Judges this program's solver or another subject.
+ValidationResult judgeMechanism(const MechanismScenario& scenario, const OtherSubject& other,
                                 const MechanismOptions& options);
 
 /// Writes a scenario for a model, with a small motion that its loops can follow. `motors` are joints' names; empty for

@@ -16,6 +16,7 @@
 #include "apps/suite/suite.h"
 #include "apps/validate_options.h"
 #include "apps/verbs.h"
+#include "apps/watch.h"
 #include "base/output_folder.h"
 #include "model/scenario.h"
 #include "model/scenario_files.h"
@@ -23,6 +24,7 @@
 #include "report/files/run.h"
 #include "report/files/written_files.h"
 #include "validation/outside/external_solver.h"
+#include "validation/outside/given_motion.h"
 #include "validation/validate.h"
 
 namespace ursula {
@@ -32,12 +34,12 @@ namespace {
 constexpr double suite_time_limit = 600;
 
 struct ValidateOptions {
-  std::vector<std::string> scenarios, map;
-  std::string torques, out, format, against;
-  ExternalSolverOptions solver;  ///< the solver under test, if it has a command
-  EffortTolerance tolerance;     ///< zeros if not given
-  double time_limit = 0;         ///< per scenario, s; 0 if not given
-  bool json = false, quiet = false, verbose = false, strict = false;
+  std::vector<std::string> scenarios;
+  std::string out, format, against;
+  OtherSubject other;         ///< who is judged, if not this program's solver
+  EffortTolerance tolerance;  ///< zeros if not given
+  double time_limit = 0;      ///< per scenario, s; 0 if not given
+  bool json = false, quiet = false, verbose = false, strict = false, thorough = false, watch = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 
   PrintedForm form() const {
@@ -54,11 +56,11 @@ std::string roughTime(double seconds) {
 }
 
 /// Announces long work before it starts, and what ends it.
-void sayWork(const Scenario& scenario, double time_limit, bool asks_process) {
+void sayWork(const Scenario& scenario, const ValidateOptions& options) {
   constexpr double worth_a_word = 60;  // s: shorter work is not announced
-  if (asks_process && !(time_limit > 0))
-    say("{}: asks the solver 20,000 times or more; --time-limit 20 judges its samples alone, and names a cause\n",
-        scenario.name);
+  const double time_limit = options.time_limit;
+  if (!options.other.solver.command.empty() && options.thorough && !(time_limit > 0))
+    say("{}: asks the solver 20,000 times or more; without --thorough at most 2,000 times\n", scenario.name);
   const double estimate = estimatedSeconds(scenario);
   if (!(estimate > worth_a_word)) return;
   const std::string ends =
@@ -67,21 +69,34 @@ void sayWork(const Scenario& scenario, double time_limit, bool asks_process) {
       scenario.simulation.samples, scenario.trajectory->duration(), ends);
 }
 
-/// Judges this program's solver, an external one, or the torques of a file.
+ValidationResult judgeCommand(const Scenario& scenario, const OtherSubject& other,
+                              const ValidationOptions& validation) {
+  return other.simulates ? validateExternalSimulator(scenario, other.solver, validation)
+                         : validateExternalSolver(scenario, other.solver, validation);
+}
+
+/// Judges this program's solver, another subject, or the torques or the motion of a file.
 ValidationResult judge(const Scenario& scenario, const ValidateOptions& options) {
-  const bool from_file = !options.torques.empty();
+  const OtherSubject& other = options.other;
+  const bool from_file = !other.torques.empty();
   const TorqueFile torques =
-      from_file ? readTorquesAloud(options.torques, options.map, scenario.manipulator->motors()) : TorqueFile{};
+      from_file ? readTorquesAloud(other.torques, other.map, scenario.manipulator->motors()) : TorqueFile{};
   std::optional<Progress> progress;
   if (!options.quiet) {
-    alongMotion(scenario, [&] { sayWork(scenario, options.time_limit, !options.solver.command.empty()); });
+    alongMotion(scenario, [&] { sayWork(scenario, options); });
     progress.emplace(scenario.name);
   }
-  if (from_file) return validateExternal(scenario, torques, options.time_limit, nullptr, options.jobs);
+  ExternalOptions external;
+  external.time_limit = options.time_limit;
+  external.threads = options.jobs;
+  if (!other.trajectory.empty())
+    return validateMotion(scenario, other.trajectory, from_file ? &torques : nullptr, external);
+  if (from_file) return validateExternal(scenario, torques, external);
   ValidationOptions validation;
   validation.time_limit = options.time_limit;
+  validation.thorough = options.thorough;
   if (progress) validation.progress = [&progress](double share, const char* now) { progress->at(share, now); };
-  if (!options.solver.command.empty()) return validateExternalSolver(scenario, options.solver, validation);
+  if (!other.solver.command.empty()) return judgeCommand(scenario, other, validation);
   validation.threads = options.jobs;
   return validate(scenario, validation);
 }
@@ -91,10 +106,11 @@ ValidationResult judge(const SuiteMember& member, const ValidateOptions& options
   if (member.scenario) return judge(*member.scenario, options);
   MechanismOptions validation;
   validation.time_limit = options.time_limit;
+  validation.thorough = options.thorough;
   std::optional<Progress> progress;
   if (!options.quiet) progress.emplace(member.name);
   if (progress) validation.progress = [&progress](double share, const char* now) { progress->at(share, now); };
-  return judgeMechanism(*member.mechanism, options.torques, options.map, options.solver, validation);
+  return judgeMechanism(*member.mechanism, options.other, validation);
 }
 
 /// Prints results in the form that was asked for, by `print` if that is no form for CI, and what changed since an
@@ -157,19 +173,21 @@ class SuiteProgress {
 /// Judges the efforts beside a scenario, or what the options name.
 ValidationResult judgeInSuite(const SuiteMember& member, const ValidateOptions& options,
                               const ValidationOptions& validation) {
-  const bool from_file = !member.torques.empty() && options.solver.command.empty();
+  const bool from_file = !member.torques.empty() && options.other.solver.command.empty();
   if (member.mechanism) {
     MechanismOptions of_mechanism;
     of_mechanism.time_limit = validation.time_limit;
-    return judgeMechanism(*member.mechanism, from_file ? member.torques.string() : "", {}, options.solver,
-                          of_mechanism);
+    of_mechanism.thorough = validation.thorough;
+    OtherSubject other = options.other;
+    if (from_file) other.torques = member.torques.string();
+    return judgeMechanism(*member.mechanism, other, of_mechanism);
   }
   const Scenario& scenario = *member.scenario;
   if (from_file)
     return validateExternal(scenario, readTorqueFile(member.torques, {}, scenario.manipulator->motors()),
                             validation.time_limit);
-  return options.solver.command.empty() ? validate(scenario, validation)
-                                        : validateExternalSolver(scenario, options.solver, validation);
+  return options.other.solver.command.empty() ? validate(scenario, validation)
+                                              : judgeCommand(scenario, options.other, validation);
 }
 
 int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions& options,
@@ -180,9 +198,9 @@ int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions
   suite.jobs = options.jobs;
   ValidationOptions validation;
   validation.time_limit = options.time_limit > 0 ? options.time_limit : suite_time_limit;
+  validation.thorough = options.thorough;
   suite.judge = [validation, &options](const SuiteMember& member) {
-    if (!options.quiet && member.scenario && member.torques.empty())
-      sayWork(*member.scenario, validation.time_limit, !options.solver.command.empty());
+    if (!options.quiet && member.scenario && member.torques.empty()) sayWork(*member.scenario, options);
     ValidationResult result = judgeInSuite(member, options, validation);
     result.blind = blindSpotsOf(member.scenario ? &*member.scenario : nullptr, member.mechanism.get());
     return result;
@@ -209,17 +227,21 @@ int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions
 
 /// Checks that options fit together, and that options for one motion get one scenario.
 void requireConsistent(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
-  if (members.size() > 1 && !options.torques.empty())
-    throw UsageError(
-        fmt::format("--torques: got {} scenarios, expected one, because a file is of one motion", members.size()));
+  for (const auto& [option, file] :
+       {std::pair("--torques", &options.other.torques), {"--trajectory", &options.other.trajectory}})
+    if (members.size() > 1 && !file->empty())
+      throw UsageError(
+          fmt::format("{}: got {} scenarios, expected one, because a file is of one motion", option, members.size()));
   for (const std::string& each : options.scenarios)
     if (std::filesystem::path(each).extension() == ".csv")
       throw UsageError(fmt::format("{} is no scenario, did you mean --torques {}?", shellWord(each), shellWord(each)));
-  if (!options.map.empty() && options.torques.empty())
+  if (!options.other.map.empty() && options.other.torques.empty())
     throw UsageError("--map: expected also --torques FILE.csv, whose columns it names");
   const auto& given = options.scenarios;
-  if (!options.solver.command.empty() && std::find(given.begin(), given.end(), "-") != given.end())
+  if (!options.other.solver.command.empty() && std::find(given.begin(), given.end(), "-") != given.end())
     throw UsageError("--solver: got - as the scenario, expected a file, because the command gets its path");
+  if (options.watch && std::find(given.begin(), given.end(), "-") != given.end())
+    throw UsageError("--watch: got - as the scenario, expected a file, because it is read again");
 }
 
 std::shared_ptr<const MechanismScenario> withTolerance(const EffortTolerance& users, MechanismScenario scenario) {
@@ -233,8 +255,8 @@ bool isSuite(const ValidateOptions& options, const std::vector<SuiteMember>& mem
     std::error_code ignored;
     return std::filesystem::is_directory(each, ignored);
   };
-  return members.size() > 1 ||
-         (options.torques.empty() && std::any_of(options.scenarios.begin(), options.scenarios.end(), is_folder));
+  return members.size() > 1 || (options.other.torques.empty() && options.other.trajectory.empty() &&
+                                std::any_of(options.scenarios.begin(), options.scenarios.end(), is_folder));
 }
 
 std::filesystem::path folderOf(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
@@ -249,13 +271,29 @@ std::filesystem::path folderOf(const ValidateOptions& options, const std::vector
 /// The input files.
 std::vector<std::filesystem::path> inputsOf(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
   std::vector<std::filesystem::path> out(options.scenarios.begin(), options.scenarios.end());
-  if (!options.torques.empty()) out.emplace_back(options.torques);
+  for (const std::string* each : {&options.other.torques, &options.other.trajectory})
+    if (!each->empty()) out.emplace_back(*each);
   for (const SuiteMember& member : members) {
     if (!member.torques.empty()) out.push_back(member.torques);
     if (member.mechanism) out.push_back(member.mechanism->model);
     if (!member.scenario) continue;
     for (std::filesystem::path& each : filesNamedBy(*member.scenario)) out.push_back(std::move(each));
   }
+  return out;
+}
+
+/// The files whose change is judged again: the inputs, or those that are named if these cannot be read.
+std::vector<std::filesystem::path> watchedFiles(const ValidateOptions& options) {
+  std::vector<std::filesystem::path> out;
+  try {
+    const std::vector<SuiteMember> members = readSuite({options.scenarios.begin(), options.scenarios.end()});
+    out = inputsOf(options, members);
+    for (const SuiteMember& member : members) out.push_back(member.file);
+  } catch (const std::exception&) {  // judging says what is wrong
+    out = inputsOf(options, {});
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 
@@ -304,22 +342,43 @@ void addOutputOptions(CLI::App& verb, ValidateOptions& options) {
 
 void addOtherSolvers(CLI::App& verb, ValidateOptions& options) {
   CLI::Option* torques =
-      verb.add_option("--torques", options.torques,
+      verb.add_option("--torques", options.other.torques,
                       "Judges the torques or forces of this CSV file instead: t_s and tau_1_Nm … tau_6_Nm,\n"
                       "tau_1_N … for motors that slide");
   CLI::Option* solver = verb.add_option(
-      "--solver", options.solver.command,
+      "--solver", options.other.solver.command,
       "Judges this command instead. sh starts it once for each scenario. It reads the motion line by line on its "
       "standard input\n"
       "(t,p,q,v,w,a,alpha: 20 values, separated by commas) and answers each line with six torques or forces");
-  solver->excludes(torques)->check(
-      [](const std::string& command) { return command.empty() ? std::string("expected a command") : std::string(); });
-  verb.add_option("--solver-timeout", options.solver.timeout, "Longest wait for an answer of that command, s")
+  const auto a_command = [](const std::string& command) {
+    return command.empty() ? std::string("expected a command") : std::string();
+  };
+  solver->excludes(torques)->check(a_command);
+  CLI::Option* simulator = verb.add_option_function<std::string>(
+      "--simulator",
+      [&options](const std::string& command) {
+        options.other.solver.command = command;
+        options.other.simulates = true;
+      },
+      "Judges this command's direct dynamics instead. It reads t,p,q,v,w and six efforts and answers each line with\n"
+      "the platform's acceleration, a_x,a_y,a_z,alpha_x,alpha_y,alpha_z");
+  simulator->excludes(torques)->excludes(solver)->check(a_command);
+  verb.add_option("--trajectory", options.other.trajectory,
+                  "Judges the motion of this CSV file instead, made under the efforts of --torques or the right ones:\n"
+                  "t_s and poses, or the coordinates of a mechanism's motors")
+      ->excludes(solver)
+      ->excludes(simulator);
+  verb.add_option("--solver-timeout", options.other.solver.timeout, "Longest wait for an answer of that command, s")
       ->check(finitePositive())
       ->check(CLI::Range(1e-3, 1e6))
       ->capture_default_str()
+      ->check([&options](const std::string&) {
+        return options.other.solver.command.empty() ? std::string("expected also --solver or --simulator") : "";
+      });
+  verb.add_flag("--thorough", options.thorough,
+                "Asks that command at every instant that an integrator wants, some 20,000; else at most 2,000 times")
       ->needs(solver);
-  addMapOption(verb, options.map);
+  addMapOption(verb, options.other.map);
 }
 
 }  // namespace
@@ -361,7 +420,14 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
       "and the others are judged. Nothing is written (exit 2) if all are in error, if two share a name, or if any is\n"
       "in error with --strict.\n"
       "Exit code: 1 if any failed or was in error, else 3 if any was inconclusive, else 0.");
-  verb->callback([options, &run] { run = [options] { return validateAll(*options); }; });
+  verb->add_flag("--watch", options->watch,
+                 "Judges again when a scenario, a file that it names, or the judged file changes, until Ctrl-C");
+  verb->callback([options, &run] {
+    run = [options] {
+      const auto judge = [options] { return validateAll(*options); };
+      return options->watch ? watched(judge, [options] { return watchedFiles(*options); }) : judge();
+    };
+  });
 }
 
 }  // namespace ursula

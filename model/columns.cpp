@@ -306,6 +306,8 @@ CsvTable readByMeaning(const std::filesystem::path& file, bool loads) {
   for (std::size_t i = 0; i < table.names.size(); ++i) {
     const Column& column = *of(table.names[i]);
     for (double& value : table.columns[i]) value = inSI(value, column.factor);
+    const auto places = static_cast<int>(std::lround(std::log10(std::abs(inSI(1.0, column.factor)))));
+    for (int& place : table.last_places[i]) place += places;
     table.names[i] = contractName(column.quantity, column.index, {});
   }
   if (found.has_angles) addQuaternions(table);

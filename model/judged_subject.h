@@ -13,15 +13,16 @@ inline const char* name(Formulation formulation) {
   return names[static_cast<std::size_t>(formulation)];
 }
 
-/// How a user calls a subject: nothing or a function in a program, `--torques` or `--solver`.
-enum class CalledBy { program, torques, solver };
+/// How a user calls a subject: nothing or a function in a program, or by the option of that name.
+enum class CalledBy { program, torques, solver, simulator, trajectory };
 
 /// The judged solver or file.
 struct JudgedSubject {
   std::string name;  ///< "noc", a file's name, a solver's command, a function's name
   Formulation formulation = Formulation::external;
   CalledBy called_by = CalledBy::program;
-  std::string map = {};  ///< columns that the user named, as TorqueFile has them
+  std::string map = {};      ///< columns that the user named, as TorqueFile has them
+  std::string torques = {};  ///< of `--trajectory`: the file of its efforts; empty for the right ones
 };
 
 }  // namespace ursula

@@ -7,6 +7,7 @@
 
 #include "base/csv.h"
 #include "base/csv_dialect.h"
+#include "base/csv_digits.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "model/mechanism_keys.h"
@@ -110,27 +111,42 @@ const std::vector<double>* columnOf(const CsvTable& table, const Mechanism& mech
   return table.find(std::string(of) == "q" ? joint + unit : fmt::format("{}_{}{}", of, joint, unit));
 }
 
-std::unique_ptr<MotorTrajectory> readMotorSamples(const TomlSection& table, const Mechanism& mechanism) {
-  table.allowOnly(mechanismTable("trajectory.samples"));
-  std::string name;
-  table.require("file", name);
-  std::filesystem::path file = name;
-  if (file.is_relative()) file = std::filesystem::path(table.file()).parent_path() / file;
+}  // namespace
+
+MotorSamples readMotorSamples(const std::filesystem::path& file, const Mechanism& mechanism) {
   const std::string text = readCsvText(file);
   CsvOptions options;
   options.dialect = guessDialect(text, file);
   const CsvTable read = inSi(parseCsv(text, file, options));
   const Eigen::MatrixXd rates = motorColumns(read, mechanism, "qdot", false);
   const Eigen::MatrixXd accelerations = motorColumns(read, mechanism, "qddot", false);
+  MotorSamples out;
+  out.t = read.at("t_s");
+  for (std::size_t k = 0; k < mechanism.motorCount(); ++k)
+    if (const auto* column = columnOf(read, mechanism, k, "q"))
+      out.quantum =
+          std::max(out.quantum, halfDigit(read, read.names[static_cast<std::size_t>(column - read.columns.data())]));
   try {
-    return makeMotorSamples(read.at("t_s"), motorColumns(read, mechanism, "q", true), rates, accelerations);
+    out.trajectory = makeMotorSamples(out.t, motorColumns(read, mechanism, "q", true), rates, accelerations);
+    return out;
   } catch (const InvalidParameter& refusal) {
     throw CsvError(fmt::format("{}: error: {}: {}, expected {}", file.string(), refusal.place(), refusal.value(),
                                refusal.bound()));
   }
 }
 
-std::unique_ptr<MotorTrajectory> readMotion(const TomlSection& table, const Mechanism& mechanism) {
+namespace {
+
+std::shared_ptr<const MotorTrajectory> readMotorSamples(const TomlSection& table, const Mechanism& mechanism) {
+  table.allowOnly(mechanismTable("trajectory.samples"));
+  std::string name;
+  table.require("file", name);
+  std::filesystem::path file = name;
+  if (file.is_relative()) file = std::filesystem::path(table.file()).parent_path() / file;
+  return ursula::readMotorSamples(file, mechanism).trajectory;
+}
+
+std::shared_ptr<const MotorTrajectory> readMotion(const TomlSection& table, const Mechanism& mechanism) {
   const auto kind = table.readChoice(mechanismTable("trajectory").key("kind"));
   if (!kind) table.missing("kind", "'fourier', 'samples' or 'hold'");
   switch (*kind) {

@@ -65,6 +65,15 @@ MechanismScenario parseMechanism(const std::string& text, const std::filesystem:
                                  ModelReader reader = partModelReader());
 MechanismScenario readMechanism(const std::filesystem::path& file, ModelReader reader = partModelReader());
 
+/// The motors' motion in a file, as `kind = "samples"` reads it, and its instants.
+struct MotorSamples {
+  std::vector<double> t;
+  std::shared_ptr<const MotorTrajectory> trajectory;
+  double quantum = 0;  ///< half a unit of the last digit of the coarsest coordinate, rad or m; 0 if unknown
+};
+/// Throws CsvError.
+MotorSamples readMotorSamples(const std::filesystem::path& file, const Mechanism& mechanism);
+
 /// Returns the names of a motor's columns: "q_1_rad", "qdot_1_rad_s", "qddot_1_rad_s2", "tau_1_Nm", or with m and N.
 std::string motorColumn(const Mechanism& mechanism, std::size_t k, const char* quantity);
 

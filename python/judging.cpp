@@ -52,10 +52,11 @@ std::optional<double> shareOf(const char* name, const Share& given) {
 }
 
 /// Validates a user's function.
-ValidationResult ofSolver(const Scenario& scenario, const py::object& solver, std::string name, double limit) {
+ValidationResult ofSolver(const Scenario& scenario, const Asked& asked) {
+  const py::object& solver = asked.solver;
   refuseUnlessFunction(solver, "a Motion");
   OutsideSolver outside;
-  outside.name = std::move(name);
+  outside.name = asked.name;
   // By reference, because copies are made without the lock.
   outside.torques = [&solver](const std::vector<Motion<double>>& motions) {
     const Locked locked;
@@ -64,13 +65,45 @@ ValidationResult ofSolver(const Scenario& scenario, const py::object& solver, st
     if (answer == nullptr) throw py::error_already_set();
     return torquesOf(py::reinterpret_steal<py::object>(answer), motions);
   };
-  return interruptible(limit,
+  return interruptible(asked,
                        [&](const ValidationOptions& options) { return validateOutside(scenario, outside, options); });
 }
 
+/// Converts a simulator's answer, a pair of linear and angular accelerations (N, 3).
+std::vector<Vector6d> accelerationsOf(const py::object& answer, const std::vector<Motion<double>>& states) {
+  const auto instant = [&states](std::size_t k) { return states[k].t; };
+  if (!py::isinstance<py::sequence>(answer) || py::len(answer) != 2)
+    throw py::value_error("the simulator's answer" + std::string(" is of type ") +
+                          std::string(py::str(py::type::of(answer).attr("__name__"))) +
+                          ", expected a pair (a, alpha), each (N, 3)");
+  const py::sequence pair(answer);
+  const py::array_t<double> linear = answerOf(pair[0], states.size(), 3, instant, "simulator", "acceleration"),
+                            angular = answerOf(pair[1], states.size(), 3, instant, "simulator", "acceleration");
+  std::vector<Vector6d> out(states.size());
+  for (std::size_t k = 0; k < states.size(); ++k)
+    out[k] << Eigen::Map<const Vector3d>(angular.data() + 3 * k), Eigen::Map<const Vector3d>(linear.data() + 3 * k);
+  return out;
+}
+
+/// Validates a user's direct dynamics.
+ValidationResult ofSimulator(const Scenario& scenario, const Asked& asked) {
+  refuseUnlessFunction(asked.accelerations, "a Motion and efforts", "accelerations");
+  OutsideSimulator outside;
+  outside.name = asked.name;
+  outside.accelerations = [&asked](const std::vector<Motion<double>>& states, const std::vector<Vector6d>& efforts) {
+    const Locked locked;
+    py::array_t<double> rows({static_cast<py::ssize_t>(efforts.size()), py::ssize_t{motor_count}});
+    for (std::size_t k = 0; k < efforts.size(); ++k)
+      Eigen::Map<Vector6d>(rows.mutable_data() + motor_count * k) = efforts[k];
+    return accelerationsOf(asked.accelerations(py::cast(Motions{states}), rows), states);
+  };
+  return interruptible(asked,
+                       [&](const ValidationOptions& options) { return validateSimulator(scenario, outside, options); });
+}
+
 /// Validates a user's numbers.
-ValidationResult ofTorques(const Scenario& scenario, const TorqueFile& torques, double limit) {
-  return interruptible(limit, [&](const ValidationOptions& options) {
+ValidationResult ofTorques(const Scenario& scenario, const TorqueFile& torques, const Asked& asked) {
+  return interruptible(asked, [&](const ValidationOptions& options) {
     return validateExternal(scenario, torques, options.time_limit, options.asked_to_end, options.threads);
   });
 }
@@ -79,9 +112,10 @@ ValidationResult validated(const ScenarioWithSolver& given, const Asked& asked) 
   Scenario scenario = given.scenario;
   setTolerance(asked.tolerance, scenario);
   if (!asked.torques.is_none() || !asked.t.is_none())
-    return ofTorques(scenario, torquesAt(given, asked.torques, asked.t, asked.name), asked.time_limit);
-  if (!asked.solver.is_none()) return ofSolver(scenario, asked.solver, asked.name, asked.time_limit);
-  return interruptible(asked.time_limit, [&](const ValidationOptions& options) { return validate(scenario, options); });
+    return ofTorques(scenario, torquesAt(given, asked.torques, asked.t, asked.name), asked);
+  if (!asked.solver.is_none()) return ofSolver(scenario, asked);
+  if (!asked.accelerations.is_none()) return ofSimulator(scenario, asked);
+  return interruptible(asked, [&](const ValidationOptions& options) { return validate(scenario, options); });
 }
 
 /// Reads the file if a path is given.
@@ -92,20 +126,33 @@ py::object scenarioOf(const py::object& given) {
 
 ValidationResult validatedAny(const py::object& s, const py::object& solver, const py::object& torques,
                               const py::object& t, const Share& share, std::optional<double> atol,
-                              const py::object& name, bool any_tolerance, std::optional<double> time_limit) {
+                              const py::object& name, bool any_tolerance, std::optional<double> time_limit,
+                              bool thorough, bool quick, const py::object& progress, const py::object& accelerations) {
   const std::optional<double> rtol = shareOf("rtol", share);
   requirePositive("rtol", rtol);
   requirePositive("atol", atol);
   requirePositive("time_limit", time_limit);
+  if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0)
+    throw py::type_error("validate: progress is of type " +
+                         std::string(py::str(py::type::of(progress).attr("__name__"))) +
+                         ", expected a function of a share from 0 to 1 and a text");
+  if (thorough && quick) throw py::type_error("validate: thorough and quick are given, expected one of them");
   if (!solver.is_none() && !torques.is_none())
     throw py::type_error("validate: solver and torques are given, expected one of them");
-  const std::string own = torques.is_none() && t.is_none() ? nameOf(solver) : "torques";
+  if (!accelerations.is_none() && !(solver.is_none() && torques.is_none()))
+    throw py::type_error("validate: accelerations and solver or torques are given, expected one of them");
+  const std::string own =
+      torques.is_none() && t.is_none() ? nameOf(accelerations.is_none() ? solver : accelerations) : "torques";
   const Asked asked = {solver,
                        torques,
                        t,
+                       accelerations,
                        {rtol.value_or(0), atol.value_or(0), any_tolerance},
                        name.is_none() ? own : std::string(py::str(name)),
-                       time_limit.value_or(0)};
+                       time_limit.value_or(0),
+                       thorough,
+                       quick,
+                       progress};
   const py::object given = scenarioOf(s);
   if (py::isinstance<MechanismWithSolver>(given)) return validated(given.cast<const MechanismWithSolver&>(), asked);
   requireScenario("validate", given, "ursula.Scenario, ursula.MechanismScenario or a path");
@@ -135,6 +182,16 @@ void requireScenario(const char* function, const py::object& given, const char* 
                        ", expected " + expected);
 }
 
+void Telling::at(double share, const char* now) {
+  if (raised_) return;
+  const Locked locked;
+  try {
+    function_(share, now);
+  } catch (const py::error_already_set& error) {
+    raised_.emplace(error);
+  }
+}
+
 void requirePositive(const char* name, std::optional<double> value) {
   if (value && !(*value > 0 && std::isfinite(*value)))
     throw py::value_error(std::string(name) + " is " + shown(*value) + ", expected a positive number");
@@ -144,7 +201,8 @@ void addJudging(py::module_& module) {
   module.def("validate", &validatedAny, py::arg("s"), py::arg("solver") = py::none(), py::kw_only(),
              py::arg("torques") = py::none(), py::arg("t") = py::none(), py::arg("rtol") = py::none(),
              py::arg("atol") = py::none(), py::arg("name") = py::none(), py::arg("any_tolerance") = false,
-             py::arg("time_limit") = py::none(), words::validate);
+             py::arg("time_limit") = py::none(), py::arg("thorough") = false, py::arg("quick") = false,
+             py::arg("progress") = py::none(), py::arg("accelerations") = py::none(), words::validate);
 }
 
 }  // namespace ursula::python

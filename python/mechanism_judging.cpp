@@ -1,6 +1,8 @@
 #include <pybind11/stl.h>
+#include <ursula/validate.h>
 
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +24,9 @@ MechanismOptions optionsOf(const ValidationOptions& options) {
   MechanismOptions out;
   out.time_limit = options.time_limit;
   out.asked_to_end = options.asked_to_end;
+  out.thorough = options.thorough;
+  out.quick = options.quick;
+  out.progress = options.progress;
   return out;
 }
 
@@ -52,6 +57,42 @@ auto answersOf(const py::object& solver, py::ssize_t motors) {
   };
 }
 
+/// Lets a slow function be asked in pieces, which are then the progress.
+void askInPieces(MechanismOptions& options, MechanismSubject& subject) {
+  Pieces::Told told;
+  if (options.progress)
+    told = [tell = std::exchange(options.progress, nullptr), thorough = options.thorough](long asked) {
+      tell(shareOfQuestions(asked, thorough), "asking the solver");
+    };
+  const auto pieces = std::make_shared<Pieces>(Deadline(options.time_limit), told);
+  subject.answers = [pieces, answers = subject.answers](const std::vector<MechanismQuestion>& questions) {
+    return pieces->answers(questions, answers);
+  };
+}
+
+/// Asks a user's direct dynamics.
+MechanismSimulator simulatorOf(const Asked& asked, py::ssize_t motors) {
+  refuseUnlessFunction(asked.accelerations, "a MechanismMotion and efforts", "accelerations");
+  MechanismSimulator out;
+  out.about = {asked.name, Formulation::external, CalledBy::program};
+  out.accelerations = [&asked, motors](const std::vector<MechanismQuestion>& states,
+                                       const std::vector<MotorEfforts>& efforts) {
+    const Locked locked;
+    const auto width = static_cast<std::size_t>(motors);
+    py::array_t<double> given({static_cast<py::ssize_t>(states.size()), motors});
+    for (std::size_t k = 0; k < efforts.size(); ++k)
+      Eigen::Map<Eigen::VectorXd>(given.mutable_data() + width * k, motors) = efforts[k];
+    const py::array_t<double> rows = answerOf(
+        asked.accelerations(py::cast(motionOf(states)), given), states.size(), motors,
+        [&states](std::size_t k) { return states[k].motion.t; }, "simulator", "acceleration");
+    std::vector<Eigen::VectorXd> found;
+    for (std::size_t k = 0; k < states.size(); ++k)
+      found.emplace_back(Eigen::Map<const Eigen::VectorXd>(rows.data() + width * k, motors));
+    return found;
+  };
+  return out;
+}
+
 GivenEfforts effortsOf(const MechanismWithSolver& given, const Asked& asked) {
   const auto [instants, rows, count] = effortRows(asked.torques, asked.t, given.motors());
   const std::vector<double> t(instants.data(), instants.data() + count);
@@ -69,28 +110,29 @@ GivenEfforts effortsOf(const MechanismWithSolver& given, const Asked& asked) {
 }  // namespace
 
 py::array_t<double> answerOf(const py::object& answer, std::size_t instants, py::ssize_t width,
-                             const std::function<double(std::size_t)>& instant) {
-  const py::array any = numbersIn(answer, "the solver's answer" + atInstant(instant(0)) + " is of type " +
-                                              typeOf(answer) + ", expected an array of real numbers");
+                             const std::function<double(std::size_t)>& instant, const char* whose, const char* what) {
+  const py::array any = numbersIn(answer, "the " + std::string(whose) + "'s answer" + atInstant(instant(0)) +
+                                              " is of type " + typeOf(answer) + ", expected an array of real numbers");
   if (any.ndim() != 2 || static_cast<std::size_t>(any.shape(0)) != instants || any.shape(1) != width)
-    throw py::value_error("the solver's answer to " + std::to_string(instants) + " instants has shape " +
-                          std::string(py::str(any.attr("shape"))) + ", expected (" + std::to_string(instants) + ", " +
-                          std::to_string(width) + ")");
+    throw py::value_error("the " + std::string(whose) + "'s answer to " + std::to_string(instants) +
+                          " instants has shape " + std::string(py::str(any.attr("shape"))) + ", expected (" +
+                          std::to_string(instants) + ", " + std::to_string(width) + ")");
   py::array_t<double, py::array::c_style | py::array::forcecast> given(any);  // comes last, because it may copy
   for (std::size_t k = 0; k < instants; ++k)
     for (py::ssize_t i = 0; i < width; ++i)
       if (const double each = given.data()[static_cast<std::size_t>(width) * k + static_cast<std::size_t>(i)];
           !std::isfinite(each))
-        throw py::value_error("the solver's effort " + std::to_string(i + 1) + atInstant(instant(k)) + " is " +
-                              shown(each) + ", expected a finite number");
+        throw py::value_error("the " + std::string(whose) + "'s " + what + " " + std::to_string(i + 1) +
+                              atInstant(instant(k)) + " is " + shown(each) + ", expected a finite number");
   return given;
 }
 
-void refuseUnlessFunction(const py::object& solver, const char* argument) {
+void refuseUnlessFunction(const py::object& solver, const char* argument, const char* name) {
   if (PyCallable_Check(solver.ptr()) != 0) return;
   const bool is_text = py::isinstance<py::str>(solver);
-  throw py::type_error("validate: solver is " + (is_text ? std::string(py::repr(solver)) + " " : std::string()) +
-                       "of type " + typeOf(solver) + ", expected a function of " + argument +
+  throw py::type_error("validate: " + std::string(name) + " is " +
+                       (is_text ? std::string(py::repr(solver)) + " " : std::string()) + "of type " + typeOf(solver) +
+                       ", expected a function of " + argument +
                        (is_text ? "; a command is for `ursula validate` in a terminal" : ""));
 }
 
@@ -119,8 +161,16 @@ ValidationResult validated(const MechanismWithSolver& given, const Asked& asked)
     subject.answers = answersOf(asked.solver, given.motors());
     subject.about = {asked.name, Formulation::external, CalledBy::program};
   }
-  return interruptible(asked.time_limit, [&](const ValidationOptions& options) {
-    return validateMechanism(scenario, subject, optionsOf(options));
+  if (!asked.accelerations.is_none()) {
+    const MechanismSimulator simulator = simulatorOf(asked, given.motors());
+    return interruptible(asked, [&](const ValidationOptions& options) {
+      return validateSimulator(scenario, simulator, optionsOf(options));
+    });
+  }
+  return interruptible(asked, [&](const ValidationOptions& options) {
+    MechanismOptions of = optionsOf(options);
+    if (subject.answers) askInPieces(of, subject);
+    return validateMechanism(scenario, subject, of);
   });
 }
 

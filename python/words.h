@@ -174,6 +174,16 @@ rtol, atol: the largest errors of torques that pass, relative to the largest eff
 '0.1%'), and in N m or N; their sum counts. If both are omitted, [acceptance] torque of the scenario counts, else rounding.
 name: name of the solver in the results; default: the function's own.
 any_tolerance: accepts even a tolerance at which efforts of zero would pass.
+thorough: asks the solver at every instant that an integrator wants, some 20,000. Without it the solver is asked at most
+2,000 times, and an error may be missed that is shorter than the time between; the result states that time.
+quick: judges the samples alone.
+progress: a function of the share done, from 0 to 1, and of a text. By default a terminal or a notebook shows a bar;
+False shows nothing.
+
+accelerations: a simulator under test instead: a function f(m, tau) that gives the platform's accelerations in B,
+(a, alpha), (N, 3) each, for a Motion and efforts (N, 6). For a mechanism it gives (N, n), those of the motors'
+coordinates. The accelerations in m are zero.
+
 time_limit: wall time, s; checks that it cuts short are inconclusive. Signal handlers, such as that of Ctrl-C,
 run, and an exception that they raise ends the validation.
 

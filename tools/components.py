@@ -18,7 +18,7 @@ VALIDATION = {
     "check_scenario": "subject",
     "mechanism": "verdict subject evidence checks findings",
     "": "verdict subject limits samples evidence checks findings",  # the entry: validation/*.cpp
-    "outside": "verdict subject mechanism",
+    "outside": "verdict subject evidence checks findings mechanism",
 }
 REPORT_SEES = {"verdict", "subject", "findings"}  # of validation/
 ROW = re.compile(r"^ursula_part\((\w+)([^)]*)\)", re.M)

@@ -1,6 +1,9 @@
 #include "validation/validate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -46,6 +49,19 @@ void addFacts(const std::optional<ErrorBudget>& budget, Evidence& evidence, Vali
 /// Reports progress; `done` is the completed part of all work.
 void tell(const ValidationOptions& options, const WorkParts& work, double done, const char* now) {
   if (options.progress) options.progress(done / work.total(), now);
+}
+
+/// Says what a solver of few questions was asked, and what that may miss.
+void sayQuestions(const Evidence& evidence, ValidationResult& result) {
+  const Subject& subject = *evidence.subject;
+  const Check* between = findCheck(result.checks, "torque.between");
+  if (subject.most_questions == 0 || between == nullptr || !std::isfinite(between->gap)) return;
+  result.findings.push_back(
+      {"questions", fmt::format("{} before a cause was sought, up to {:.3g} s apart: an error that is shorter may be "
+                                "missed. The replays ran on the NOC's torques plus the interpolated difference of the "
+                                "answers. A thorough run asks at every instant that an integrator wants (--thorough, "
+                                "in Python thorough=True)",
+                                subject.answers().size(), between->gap)});
 }
 
 /// Judges all answers that an external solver ever gave, instead of those that torque.between requested.
@@ -116,12 +132,12 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   requireTellingTolerance(scenario);
   const bool keeps_nothing = given.formulation == Formulation::external && !given.answers;
   const Subject subject = inTime(keeps_nothing ? recorded(given) : given, reference.deadline);
-  reference.prepare(static_cast<bool>(subject.accelerations), options.ladder);
+  if (!options.quick) reference.prepare(static_cast<bool>(subject.accelerations), options.ladder);
   const WorkParts work = workParts(scenario);
   double done = work.reference;
   tell(options, work, done, "experiments");
   Evidence evidence = gather(scenario, reference, subject, right, options.fault ? *options.fault : InjectedFault{},
-                             {options.ladder, options.reactions, witnesses(),
+                             {options.ladder, options.reactions, options.quick, witnesses(),
                               [&](double share) { tell(options, work, done + share * work.samples, "experiments"); }});
   ValidationResult result = emptyResult(scenario, subject);
   done += work.samples + work.replays;
@@ -137,6 +153,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   reference.stop();  // the rest is short and turns the finished part into a result
   judgeEveryAnswer(evidence, result.checks);
   addFacts(budget, evidence, result);
+  sayQuestions(evidence, result);
   result.deviation = effortDeviation(evidence, result.checks, result.odd_one);
   conclude(scenario, evidence.has, 0, result);
   if (result.verdict == Verdict::fail && subject.formulation == Formulation::external && !onlyOddEngineFails(result))
@@ -150,6 +167,8 @@ std::shared_ptr<const Reference> referenceOf(const Scenario& scenario, const Val
   const Deadline deadline(options.time_limit, options.asked_to_end);
   const FormulationFaults faults = options.fault ? options.fault->formulations : FormulationFaults{};
   if (faults) return std::make_shared<const Reference>(scenario, options.threads, deadline, faults);
+  if (options.quick && !options.reference)
+    return std::make_shared<const Reference>(scenario, options.threads, deadline, faults, false);
   return options.reference ? options.reference : makeReference(scenario, options.threads, deadline);
 }
 

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "base/deadline.h"
 #include "model/scenario.h"
@@ -25,7 +27,9 @@ struct ValidationOptions {
   std::shared_ptr<const InjectedFault> fault = nullptr;  ///< for negative controls; null falsifies nothing
   /// Receives the next step and the approximate share of time passed; may be empty.
   std::function<void(double share, const char* now)> progress = nullptr;
-  int threads = 1;  ///< results do not depend on it
+  int threads = 1;        ///< results do not depend on it
+  bool thorough = false;  ///< an outside solver is asked at every instant that an integrator wants
+  bool quick = false;     ///< only what the samples show: no instant between them, no replay
   /// Time limit from the call on, s; 0 means none. Unfinished parts are inconclusive (Reason::unfinished); no number
   /// depends on it otherwise. A given `reference` has its own limit.
   double time_limit = 0;
@@ -56,11 +60,25 @@ std::shared_ptr<const Reference> makeReference(const Scenario& scenario, int thr
 /// Estimates the time of validate() on this machine, s, from a few evaluations and their expected number.
 double estimatedSeconds(const Scenario& scenario);
 
+/// What else validateExternal() is told.
+struct ExternalOptions {
+  double time_limit = 0;
+  std::function<bool()> asked_to_end = nullptr;
+  int threads = 1;
+  std::optional<JudgedSubject> about = std::nullopt;  ///< what made the torques, if no file or program gave them
+  /// Further checks, in SI.
+  std::function<std::vector<Check>()> more = nullptr;
+  /// What made the torques, to be asked for its terms apart; works on the scenario as given. Null if it cannot be
+  /// asked.
+  const Subject* solver = nullptr;
+};
+
 /// Validates external torques: pointwise at their own instants, and by replay on a spline through them. The failed
 /// checks' `off` and the findings describe their errors. Throws CsvError for instants outside the motion, and like
 /// validate(). `time_limit`, `asked_to_end` and `threads` are those of ValidationOptions.
 ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques, double time_limit = 0,
                                   std::function<bool()> asked_to_end = nullptr, int threads = 1);
+ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques, const ExternalOptions& options);
 
 /// The same from a file; throws CsvError like readTorqueFile.
 ValidationResult validateExternal(const Scenario& scenario, const std::filesystem::path& torques_csv);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <utility>
 
 #include "base/deadline.h"
@@ -21,6 +22,7 @@ namespace ursula {
 namespace {
 
 void addFileFindings(const TorqueFile& file, ValidationResult& result) {
+  if (!file.derived_from.empty()) return;
   result.findings.push_back({"torque file", fmt::format("{} instants from {:.6g} to {:.6g} s, up to {} digits",
                                                         file.rows(), file.t.front(), file.t.back(), file.digits)});
   if (!file.read_as.empty()) result.findings.push_back({"torque file read as", file.read_as});
@@ -65,21 +67,44 @@ Evidence gatherExternal(const Scenario& given, const FrameChange& natural, const
   return out;
 }
 
-void addFacts(const Evidence& evidence, const ErrorBudget& budget, ValidationResult& result) {
+void addFacts(const Evidence& evidence, const std::optional<ErrorBudget>& budget, ValidationResult& result) {
   result.timeseries =
       validationSeries(*evidence.scenario->manipulator, evidence.samples, evidence.windows, evidence.natural);
   addFindings(evidence.samples, evidence.windows, result, evidence.units());
   addCurves(evidence.samples, evidence.windows, evidence.natural, result);
   if (!evidence.not_replayed.empty()) result.findings.push_back({"replay", "none: " + evidence.not_replayed});
   if (!evidence.spline.empty()) result.findings.push_back({"spline", evidence.spline});
-  addBudget(budget, result, evidence.units(), ErrorSource::between_samples);
+  if (budget) addBudget(*budget, result, evidence.units(), ErrorSource::between_samples);
+}
+
+/// Names the cause; `solver` may be null.
+void addCause(const Scenario& scenario, const FrameChange& natural, const TorqueFile& file, const Evidence& evidence,
+              const Subject* solver, ValidationResult& result) {
+  const Scenario there = relocated(scenario, natural.origin);
+  if (solver == nullptr) return partLikelyCause()(there, file, nullptr, result);
+  Subject in_si = *solver;
+  in_si.torques = [solver, origin = natural.origin](Motion<double> motion) {
+    motion.p += origin;
+    return solver->torques(motion);
+  };
+  const Subject in_natural = transformed(*solver, natural);
+  const WrongSolver wrong{in_si, in_natural, evidence};
+  partLikelyCause()(there, file, &wrong, result);
 }
 
 }  // namespace
 
 ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques, double time_limit,
                                   std::function<bool()> asked_to_end, int threads) {
-  const Deadline deadline(time_limit, std::move(asked_to_end));
+  ExternalOptions options;
+  options.time_limit = time_limit;
+  options.asked_to_end = std::move(asked_to_end);
+  options.threads = threads;
+  return validateExternal(scenario, torques, options);
+}
+
+ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques, const ExternalOptions& options) {
+  const Deadline deadline(options.time_limit, options.asked_to_end);
   checkMotion(scenario);
   requireTellingTolerance(scenario);
   const FrameChange natural = naturalFrameChange(scenario);
@@ -90,18 +115,23 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   std::string out_of_time;
   try {
     external = runExternal(here, inUnits(file, natural), deadline);
-    replay = replayExternal(here, external, natural.units, deadline);
+    if (torques.derived_from.empty()) replay = replayExternal(here, external, natural.units, deadline);
   } catch (const OutOfTime& over) {
     out_of_time = over.what();
   }
   Evidence evidence = gatherExternal(scenario, natural, here, external, replay);
   evidence.has.out_of_time = out_of_time;
-  ValidationResult result =
-      emptyResult(scenario, {torques.file.filename().string(), Formulation::external,
-                             torques.is_read ? CalledBy::torques : CalledBy::program, torques.map});
+  evidence.has.left_out_replays = !torques.derived_from.empty();
+  const JudgedSubject of_file{torques.file.filename().string(), Formulation::external,
+                              torques.is_read ? CalledBy::torques : CalledBy::program, torques.map};
+  ValidationResult result = emptyResult(scenario, options.about.value_or(of_file));
   result.checks = judgeAll(evidence);
-  const ErrorBudget budget =
-      attribute(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan, threads);
+  if (options.more && out_of_time.empty())
+    for (Check& check : options.more()) result.checks.push_back(std::move(check));
+  std::optional<ErrorBudget> budget;
+  if (torques.derived_from.empty())
+    budget = attribute(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan,
+                       options.threads);
   deadline.remove();  // the rest is short and turns the finished part into a result
   result.odd_one = oddOneOut(external);
   result.findings.push_back({"odd one out of the formulations", inWords(result.odd_one)});
@@ -110,7 +140,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   conclude(scenario, evidence.has, replay.between * natural.units.effort(), result);
   addFileFindings(file, result);
   if (result.verdict == Verdict::fail && !onlyOddEngineFails(result) && partLikelyCause() != nullptr)
-    partLikelyCause()(relocated(scenario, natural.origin), file, nullptr, result);
+    addCause(scenario, natural, file, evidence, options.solver, result);
   sayEfforts(result);
   return result;
 }

@@ -5,5 +5,6 @@
 
 #include "base/text.h"
 #include "include/ursula/abi.h"
+#include "validation/outside/outside_simulator.h"
 #include "validation/outside/outside_solver.h"
 #include "validation/validate.h"

@@ -17,7 +17,7 @@ try:
 except ImportError as _error:
     raise ImportError("ursula needs NumPy: pip install numpy, or apt install python3-numpy") from _error
 
-from . import _errors, _notebook
+from . import _errors, _notebook, _progress
 from ._identify import Identified, identify
 from ._ursula import (
     Body,
@@ -83,6 +83,7 @@ __all__ = [
     "validate",
 ]
 
+validate = _progress.with_bar(validate)
 Result.plot = _notebook.plot
 Result.show = _notebook.show
 Result._repr_html_ = _notebook.html

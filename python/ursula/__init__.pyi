@@ -546,8 +546,13 @@ def validate(
     name: str | None = None,
     any_tolerance: bool = False,
     time_limit: float | None = None,
+    thorough: bool = False,
+    quick: bool = False,
+    progress: Callable[[float, str], object] | bool | None = None,
+    accelerations: Callable[[Any, Any], Any] | None = None,
 ) -> Result:
     """Validates a scenario, or that of a path, with this program's solver or with `solver`.
 
-    The solver turns a Motion of N instants into efforts (N, 6), or a MechanismMotion into (N, n), N m or N.
+    The solver turns a Motion of N instants into efforts (N, 6), or a MechanismMotion into (N, n), N m or N. `accelerations` turns a
+    motion and efforts into the platform's (a, alpha), (N, 3) each, or into the motors' (N, n).
     """

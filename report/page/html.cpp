@@ -34,6 +34,9 @@ std::string command(const ValidationResult& result) {
   if (file.empty() || is_function) return "";
   std::string out = "ursula validate " + shellWord(file);
   if (subject.called_by == CalledBy::torques) out += " --torques " + shellWord(subject.name);
+  if (subject.called_by == CalledBy::simulator) out += " --simulator " + shellWord(subject.name);
+  if (subject.called_by == CalledBy::trajectory) out += " --trajectory " + shellWord(subject.name);
+  if (!subject.torques.empty()) out += " --torques " + shellWord(subject.torques);
   if (!subject.map.empty()) out += " --map " + subject.map;
   if (subject.called_by == CalledBy::solver) out += " --solver " + shellWord(subject.name);
   if (result.mechanism != nullptr) return out + result.mechanism->options;

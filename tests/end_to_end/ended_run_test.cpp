@@ -33,6 +33,28 @@ TEST(EndedRun, ofASignalLeavesNothing) {
   EXPECT_TRUE(fs::exists(lock)) << "or nothing would be seen above";
 }
 
+/// Each change is judged once more; a scenario that cannot be read ends nothing, and SIGINT does.
+TEST(Watch, judgesAgainWhenAFileChanges) {
+  const Program ursula;
+  const fs::path summary = ursula.folder() / "out" / "summary.json";
+  ursula.write("a.toml", quickScenario("one"));
+  Running run(ursula, {"validate", "a.toml", "--out", "out", "--watch", "--quiet", "--time-limit", "1e-9"});
+  const auto holds = [&](const char* what) {
+    for (int k = 0; k < 3000 && !run.hasEnded(); ++k, std::this_thread::sleep_for(10ms))
+      if (fs::exists(summary) && TemporaryFolder::read(summary).find(what) != std::string::npos) return true;
+    return false;
+  };
+  ASSERT_TRUE(holds("\"one\""));
+  ursula.write("a.toml", "this is no scenario");
+  std::this_thread::sleep_for(1s);
+  EXPECT_FALSE(run.hasEnded());
+  ursula.write("a.toml", quickScenario("another"));
+  EXPECT_TRUE(holds("\"another\""));
+  std::this_thread::sleep_for(500ms);  // until it waits
+  run.send(SIGINT);
+  EXPECT_EQ(run.exitCode(), 3);
+}
+
 TEST(EndedRun, ofTooFewDescriptorsNamesAPath) {
   const Program ursula;
   for (const char* name : {"one", "two"}) ursula.write(std::string(name) + ".toml", quickScenario(name));

@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "model/instants.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/loops/loop_scenario.h"
 #include "validation/mechanism/validate_mechanism.h"
+#include "validation/outside/given_motion.h"
+#include "validation/outside/outside_simulator.h"
 
 namespace ursula {
 namespace {
@@ -85,6 +89,82 @@ INSTANTIATE_TEST_SUITE_P(Machines, MechanismVerdict,
                          testing::Values("fourbar", "planar3rrr", "ankle", "delta", "delta_balls", "boom_rub",
                                          "fourbar_rub"),
                          [](const auto& machine) { return std::string(machine.param); });
+
+/// Direct dynamics of a machine along the scenario's motion, under efforts changed by `change`.
+MechanismSimulator simulatorOf(const MechanismAlong& along, long& asked,
+                               const std::function<void(MotorEfforts&)>& change = nullptr) {
+  MechanismSimulator out;
+  out.about = {"mine", Formulation::external, CalledBy::program};
+  out.accelerations = [&along, &asked, change](const auto& states, const auto& efforts) {
+    std::vector<Eigen::VectorXd> found;
+    LoopWork work;
+    for (std::size_t k = 0; k < states.size(); ++k) {
+      MotorEfforts used = efforts[k];
+      if (change) change(used);
+      const MotorMotion& motion = states[k].motion;
+      EXPECT_EQ(motion.qddot.norm(), 0) << "the answer is given away";
+      found.push_back(along.solver().directDynamics(motion, used, along.motion().near(motion.t), work));
+    }
+    asked += static_cast<long>(states.size());
+    return found;
+  };
+  return out;
+}
+
+TEST_P(MechanismVerdict, ofARightSimulatorIsPassAndOfAWrongOneFail) {
+  const MechanismScenario scenario = loopScenario(GetParam());
+  const MechanismAlong right(scenario);
+  long asked = 0;
+  const ValidationResult passed = validateSimulator(scenario, simulatorOf(right, asked));
+  std::string failed;
+  for (const Check& check : passed.checks)
+    if (check.verdict == Verdict::fail || check.verdict == Verdict::inconclusive)
+      failed += check.name + ": " + check.why;
+  EXPECT_EQ(passed.verdict, Verdict::pass) << failed;
+  EXPECT_LE(asked, 2000);
+  const MechanismScenario heavier = changedScenario(scenario, [](MechanismParameters& machine) {
+    for (MechanismBody& body : machine.bodies) body.mass *= 1.0001;
+  });
+  const MechanismAlong other(heavier);
+  asked = 0;
+  EXPECT_EQ(validateSimulator(scenario, simulatorOf(other, asked)).verdict, Verdict::fail);
+  EXPECT_LE(asked, 2000);
+  const auto stronger = [](MotorEfforts& efforts) { efforts(0) *= 1 + 1e-5; };
+  EXPECT_EQ(validateSimulator(scenario, simulatorOf(right, asked, stronger)).verdict, Verdict::fail);
+}
+
+/// The file of a motion, as another program has it.
+std::filesystem::path motionFile(const TemporaryFolder& folder, const MechanismScenario& scenario) {
+  std::vector<std::string> names = {"t_s"};
+  std::vector<std::vector<double>> columns(1 + scenario.mechanism->motorCount());
+  for (std::size_t k = 0; k < scenario.mechanism->motorCount(); ++k)
+    names.push_back(motorColumn(*scenario.mechanism, k, "q"));
+  for (const double t : equallySpaced(scenario.trajectory->duration(), 401)) {
+    columns[0].push_back(t);
+    const MotorMotion motion = scenario.trajectory->at(t);
+    for (std::size_t k = 0; k + 1 < columns.size(); ++k)
+      columns[k + 1].push_back(motion.q(static_cast<Eigen::Index>(k)));
+  }
+  return folder.write("motion.csv", csvText(names, columns));
+}
+
+TEST(MechanismMotion, ofAFileIsJudgedByItsEfforts) {
+  const TemporaryFolder folder;
+  MechanismScenario scenario = loopScenario("ankle");
+  scenario.tolerance = EffortTolerance{1e-4, 0};
+  const auto file = motionFile(folder, scenario);
+  const ValidationResult right = validateMotion(scenario, file, nullptr);
+  EXPECT_EQ(right.verdict, Verdict::pass);
+  GivenEfforts given = effortsOf(scenario);
+  EXPECT_EQ(validateMotion(scenario, file, &given).verdict, Verdict::pass);
+  for (MotorEfforts& each : given.efforts) each(0) *= 1.01;
+  EXPECT_EQ(validateMotion(scenario, file, &given).verdict, Verdict::fail);
+  const MechanismScenario heavier = changedScenario(scenario, [](MechanismParameters& machine) {
+    for (MechanismBody& body : machine.bodies) body.mass *= 1.01;
+  });
+  const GivenEfforts of_lighter = effortsOf(scenario);
+  EXPECT_EQ(validateMotion(heavier, file, &of_lighter).verdict, Verdict::fail);
+}
 
 TEST(MechanismTolerance, ofTheUserDecides) {
   MechanismScenario scenario = loopScenario("fourbar");

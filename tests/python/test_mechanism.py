@@ -141,6 +141,42 @@ def test_function_within_a_tolerance(quick):
     assert ursula.validate(s, lambda m: 1.1 * s.inverse_dynamics(m), rtol="1%").verdict == "fail"
 
 
+def test_a_slow_function_in_pieces_with_progress(quick):
+    s, sizes, told = ursula.read_scenario(quick("fivebar")), [], []
+
+    def mine(m):
+        sizes.append(len(m))
+        return s.inverse_dynamics(m)
+
+    r = ursula.validate(s, mine, progress=lambda share, now: told.append(share))
+    assert r.verdict == "pass" and sum(sizes) <= 2000 and len(sizes) > 2 and told == sorted(told) and told
+    sizes.clear()
+    assert ursula.validate(s, mine, thorough=True).verdict == "pass"
+    assert sum(sizes) > 8000
+    sizes.clear()
+    assert ursula.validate(s, mine, quick=True).verdict == "pass"
+    assert sum(sizes) == 11
+
+
+@pytest.mark.parametrize("name", ["fourbar", "fivebar", "delta"])
+def test_a_simulator(quick, name):
+    s, asked = ursula.read_scenario(quick(name)), []
+    n = len(s.motors)
+
+    def mine(m, tau, factor=1.0):
+        assert tau.shape == (len(m), n) and not m.qddot.any()
+        asked.append(len(m))
+        return s.direct_dynamics(m, factor * tau)
+
+    r = ursula.validate(s, accelerations=mine)
+    assert r.verdict == "pass", r.reason
+    assert sum(asked) <= 2000
+    r = ursula.validate(s, accelerations=lambda m, tau: mine(m, tau, 1.0001))
+    assert r.verdict == "fail" and r.cause is not None and r.cause.kind == "scale"
+    light = ursula.validate(s, accelerations=lambda m, tau: 1.0001 * mine(m, tau))
+    assert light.verdict == "fail"
+
+
 def test_torques(quick):
     s = ursula.read_scenario(quick("delta"))
     t = np.linspace(0, s.duration, 201)

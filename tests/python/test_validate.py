@@ -52,6 +52,102 @@ def test_a_right_solver_passes_and_is_asked_for_many_instants_at_once(quick):
         assert verdicts[name] == "not_applicable"
 
 
+def test_a_slow_solver_is_asked_few_times_unless_thorough(quick):
+    s, asked = ursula.read_scenario(quick), []
+
+    def mine(m):
+        asked.append(len(m))
+        return 1.01 * s.inverse_dynamics(m)
+
+    r = ursula.validate(s, mine)
+    assert r.verdict == "fail" and r.cause.kind == "scale" and sum(asked) <= 2000
+    assert "may be missed" in r.summary["findings"]["questions"]
+    asked.clear()
+    ursula.validate(s, lambda m: mine(m) / 1.01, thorough=True)
+    assert sum(asked) > 10000
+    asked.clear()
+    r = ursula.validate(s, mine, quick=True)
+    assert r.verdict == "fail" and sum(asked) < 11 + 130
+    verdicts = {check.name: check.verdict for check in r.checks}
+    assert verdicts["torque.pointwise"] == "fail" and verdicts["torque.between"] == verdicts["replay.position"] == "not_applicable"
+    assert ursula.validate(s, quick=True).verdict == "pass"
+    with pytest.raises(TypeError, match="thorough and quick are given"):
+        ursula.validate(s, mine, thorough=True, quick=True)
+
+
+def test_progress_is_told_and_its_exception_arrives(quick):
+    s, told = ursula.read_scenario(quick), []
+    ursula.validate(s, s.inverse_dynamics, progress=lambda share, now: told.append((share, now)))
+    shares = [share for share, _ in told]
+    assert len(shares) > 2 and shares == sorted(shares) and 0 < shares[0] and shares[-1] < 1
+    assert {now for _, now in told} == {"asking the solver"}
+    told.clear()
+    ursula.validate(s, progress=lambda share, now: told.append((share, now)))
+    assert len({now for _, now in told}) > 2
+
+    def fails(share, now):
+        raise Broken("told")
+
+    with pytest.raises(Broken, match="told"):
+        ursula.validate(s, progress=fails)
+    with pytest.raises(Broken, match="told"):
+        ursula.validate(s, s.inverse_dynamics, progress=fails)
+    with pytest.raises(TypeError, match="progress is of type int, expected a function"):
+        ursula.validate(s, progress=3)
+
+
+def test_a_bar_is_shown_where_somebody_looks(quick, monkeypatch):
+    written = []
+
+    class Terminal:
+        def isatty(self):
+            return True
+
+        def write(self, text):
+            written.append(text)
+
+        def flush(self):
+            pass
+
+    s = ursula.read_scenario(quick)
+    monkeypatch.setattr(ursula._progress, "_FROM", 0.0)
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    ursula.validate(s, s.inverse_dynamics, progress=False)
+    assert written == []
+    ursula.validate(s, s.inverse_dynamics)
+    assert "asking the solver" in "".join(written) and written[-1].startswith("\r")
+
+
+def test_a_simulator(quick):
+    s, asked = ursula.read_scenario(quick), []
+
+    def mine(m, tau, factor=1.0):
+        assert tau.shape == (len(m), 6) and not m.a.any() and not m.alpha.any()
+        asked.append(len(m))
+        return s.forward_dynamics(m, factor * tau)
+
+    r = ursula.validate(s, accelerations=mine)
+    assert r.verdict == "pass", r.reason
+    assert sum(asked) <= 2000 and r.summary["provenance"]["subject"] == "mine"
+    assert {check.name: check.verdict for check in r.checks}["direct.off_path"] == "pass"
+    r = ursula.validate(s, accelerations=lambda m, tau: mine(m, tau, 1.001))
+    assert r.verdict == "fail" and r.cause.kind == "scale"
+    assert ursula.validate(s, accelerations=lambda m, tau: mine(m, tau, 1.001), rtol="1%").verdict == "pass"
+
+    def broken(m, tau):
+        raise Broken("at once")
+
+    with pytest.raises(Broken):
+        ursula.validate(s, accelerations=broken)
+    for answer, words in ((lambda m, tau: 3, r"expected a pair \(a, alpha\)"),
+                          (lambda m, tau: (m.p, m.p[:, :2]), r"the simulator's answer to \d+ instants has shape"),
+                          (lambda m, tau: (m.p, m.p * np.nan), "the simulator's acceleration 1 at t = 0.0 s is nan")):
+        with pytest.raises(ValueError, match=words):
+            ursula.validate(s, accelerations=answer)
+    with pytest.raises(TypeError, match="accelerations and solver or torques are given"):
+        ursula.validate(s, s.inverse_dynamics, accelerations=mine)
+
+
 def test_a_wrong_solver_fails(quick):
     s = ursula.read_scenario(quick)
     r = ursula.validate(s, lambda m: (1 + 1e-11) * s.inverse_dynamics(m))
@@ -193,7 +289,7 @@ def test_an_exception_arrives_as_it_was_raised(quick, share):
         return s.inverse_dynamics(m)
 
     with pytest.raises(Broken) as caught:
-        ursula.validate(s, solver=mine)
+        ursula.validate(s, solver=mine, thorough=True)
     assert caught.value is raised
     assert calls == most + 1, "it was asked again after that"
 

@@ -19,6 +19,12 @@
 namespace ursula {
 namespace {
 
+ValidationOptions thorough() {
+  ValidationOptions out;
+  out.thorough = true;
+  return out;
+}
+
 struct Case {
   Scenario scenario = vectorScenario("random-2");
   Subject right;
@@ -45,7 +51,8 @@ TEST(OutsideSolver, isJudgedAsWhatIsAskedOneByOne) {
   const ValidationResult many = validateOutside(here.scenario, here.solver([&](std::size_t count) {
     ++calls;
     motions += count;
-  }));
+  }),
+                                                thorough());
   EXPECT_GT(motions, 8 * calls) << "it was asked one by one";
   Subject single;
   single.name = "outside";
@@ -90,6 +97,82 @@ TEST(OutsideSolver, isAskedInPiecesUnderATimeLimit) {
   EXPECT_EQ(first, 301U) << "without a limit it is asked for all at once";
 }
 
+/// What a slow solver is asked: few questions show a right one and a wrong one, and a pulse longer than what is stated.
+TEST(OutsideSolver, isAskedAtMostTwoThousandTimes) {
+  for (const int samples : {2, 301, 5000}) {
+    Case here;
+    here.scenario.simulation.samples = samples;
+    std::size_t asked = 0;
+    const auto count = [&asked](std::size_t motions) { asked += motions; };
+    const ValidationResult right = validateOutside(here.scenario, here.solver(count));
+    EXPECT_EQ(right.verdict, Verdict::pass) << samples;
+    EXPECT_LE(asked, 2000u) << samples;
+    EXPECT_GE(asked, 1500u) << samples;
+    for (const char* name : {"torque.between", "replay.position", "integration.ladder", "feedback.torque"})
+      EXPECT_EQ(findCheck(right.checks, name)->verdict, Verdict::pass) << name;
+    EXPECT_LT(findCheck(right.checks, "torque.between")->gap, here.scenario.trajectory->duration() / 500);
+    asked = 0;
+    OutsideSolver wrong = here.solver(count);
+    wrong.torques = [right = wrong.torques](const std::vector<Motion<double>>& motions) {
+      std::vector<Vector6d> out = right(motions);
+      for (Vector6d& each : out) each(3) *= 1.01;
+      return out;
+    };
+    const ValidationResult failed = validateOutside(here.scenario, wrong);
+    EXPECT_EQ(failed.verdict, Verdict::fail) << samples;
+    EXPECT_EQ(findCheck(failed.checks, "replay.position")->verdict, Verdict::fail) << samples;
+    EXPECT_LE(asked, 2000u) << samples;
+    ASSERT_TRUE(failed.cause) << samples;
+    EXPECT_EQ(failed.cause->kind, CauseKind::scale);
+  }
+}
+
+TEST(OutsideSolver, aPulseLongerThanTheStatedResolutionIsSeen) {
+  const Case here;
+  const double gap = findCheck(validateOutside(here.scenario, here.solver()).checks, "torque.between")->gap;
+  const double end = here.scenario.trajectory->duration();
+  for (const double share : {0.013, 0.372, 0.611, 0.987}) {
+    OutsideSolver wrong = here.solver();
+    wrong.torques = [right = wrong.torques, from = share * end, gap](const std::vector<Motion<double>>& motions) {
+      std::vector<Vector6d> out = right(motions);
+      for (std::size_t k = 0; k < out.size(); ++k)
+        if (motions[k].t > from && motions[k].t < from + gap) out[k](1) += 1;
+      return out;
+    };
+    EXPECT_TRUE(fails(validateOutside(here.scenario, wrong).checks, "torque.between")) << share;
+  }
+}
+
+/// One that is right until it is asked the same again.
+TEST(OutsideSolver, whatIsRightOnlyOnceFails) {
+  const Case here;
+  OutsideSolver wrong = here.solver();
+  const auto asked = std::make_shared<std::vector<double>>();
+  wrong.torques = [right = wrong.torques, asked](const std::vector<Motion<double>>& motions) {
+    std::vector<Vector6d> out = right(motions);
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      if (std::find(asked->begin(), asked->end(), motions[k].t) != asked->end()) out[k](0) += 1;
+      asked->push_back(motions[k].t);
+    }
+    return out;
+  };
+  EXPECT_EQ(validateOutside(here.scenario, wrong).verdict, Verdict::fail);
+}
+
+TEST(OutsideSolver, quickAsksTheSamplesAlone) {
+  const Case here;
+  std::size_t asked = 0;
+  ValidationOptions quick;
+  quick.quick = true;
+  const ValidationResult result =
+      validateOutside(here.scenario, here.solver([&asked](std::size_t motions) { asked += motions; }), quick);
+  EXPECT_EQ(asked, 11u);
+  EXPECT_EQ(result.verdict, Verdict::pass);
+  for (const char* name : {"torque.between", "replay.position", "integration.ladder", "feedback.torque"})
+    EXPECT_EQ(findCheck(result.checks, name)->verdict, Verdict::not_applicable) << name;
+  EXPECT_EQ(findCheck(result.checks, "torque.pointwise")->verdict, Verdict::pass);
+}
+
 struct Broke {
   int what;
 };
@@ -97,7 +180,7 @@ struct Broke {
 TEST(OutsideSolver, whatItThrowsArrivesWhereverItIsThrown) {
   const Case here;
   int all = 0;
-  validateOutside(here.scenario, here.solver([&all](std::size_t) { ++all; }));
+  validateOutside(here.scenario, here.solver([&all](std::size_t) { ++all; }), thorough());
   ASSERT_GT(all, 100);
   // Not nearer to the end: how many questions a replay in several threads asks together differs from run to run.
   for (int last : {1, 3, all / 3, 2 * all / 3, 9 * all / 10}) {
@@ -106,7 +189,7 @@ TEST(OutsideSolver, whatItThrowsArrivesWhereverItIsThrown) {
       if (++calls >= last) throw Broke{last};
     };
     try {
-      validateOutside(here.scenario, here.solver(breaks));
+      validateOutside(here.scenario, here.solver(breaks), thorough());
       ADD_FAILURE() << "nothing was thrown at call " << last;
     } catch (const Broke& broke) {
       EXPECT_EQ(broke.what, last);
@@ -121,7 +204,7 @@ TEST(OutsideSolver, anErrorOfThisProgramsKindIsNoAnswerEither) {
   const auto breaks = [&calls](std::size_t) {
     if (++calls > 40) throw std::runtime_error("mine");  // in a replay, where the loop's own make a result
   };
-  EXPECT_THAT([&] { validateOutside(here.scenario, here.solver(breaks)); },
+  EXPECT_THAT([&] { validateOutside(here.scenario, here.solver(breaks), thorough()); },
               testing::ThrowsMessage<std::runtime_error>("mine"));
 }
 

@@ -38,6 +38,10 @@ std::vector<Check> judgeSamples(const Evidence& e) {
 }
 
 std::vector<Check> judgeBetweenSamples(const Evidence& e) {
+  if (e.subject->most_questions > 0) {
+    e.reference->deadline.require();
+    return {judgeAnswers(*e.scenario, e.subject->answers(), e.samples, profileOf(e), e.units())};
+  }
   return {judgeBetween(*e.scenario, *e.subject, e.samples, profileOf(e), e.units())};
 }
 
@@ -78,7 +82,9 @@ std::vector<Check> judgeReplays(const Evidence& e) {
 }
 
 /// False if time ran out before the replays.
-bool replayed(const Evidence& e) { return e.has.out_of_time.empty() || !e.windows.empty(); }
+bool replayed(const Evidence& e) {
+  return !e.has.left_out_replays && (e.has.out_of_time.empty() || !e.windows.empty());
+}
 
 void lookAtReplays(Evidence& e) {
   for (std::size_t k = 0; k < e.windows.size() && e.reference != nullptr; ++k)
@@ -146,10 +152,13 @@ std::vector<CheckFamily> familiesOfCore() {
        {"reactions.pointwise"},
        [](E e) { return !e.reactions().empty(); },
        [](E e) { return std::vector<Check>{judgeReactions(e.reactions(), e.samples, profileOf(e), e.units())}; }},
-      {"between samples", {"torque.between"}, answers, judgeBetweenSamples},
+      {"between samples",
+       {"torque.between"},
+       [](E e) { return answers(e) && !e.has.left_out_replays; },
+       judgeBetweenSamples},
       {"direct dynamics",
        {"direct.pointwise", "direct.off_path"},
-       [](E e) { return answers(e) && e.has.direct_dynamics; },
+       [](E e) { return answers(e) && e.has.direct_dynamics && !e.has.left_out_replays; },
        judgeDirectDynamics},
       {"replays",
        {"replay.position", "replay.orientation", "closure.position", "closure.velocity", "energy.balance"},

@@ -8,6 +8,7 @@
 #include "nocsolver/errors.h"
 #include "simbody/simbody_loop.h"
 #include "validation/samples/pointwise.h"
+#include "validation/subject/asked_instants.h"
 
 namespace ursula {
 namespace {
@@ -21,34 +22,6 @@ constexpr int least_instants = 8192;
 constexpr double instants_per_time = 600;
 /// More instants than this would take seconds.
 constexpr int most_instants = 65536;
-
-/// Returns k φ⁻¹ mod 1 of the duration. The gaps have at most three lengths and match no period (Knuth, The Art of
-/// Computer Programming 3, sect. 6.4, theorem S).
-std::vector<double> goldenInstants(double duration, int count) {
-  const double ratio = (std::sqrt(5.0) - 1) / 2;
-  std::vector<double> out;
-  out.reserve(static_cast<std::size_t>(count));
-  for (int k = 1; k <= count; ++k) out.push_back(duration * std::fmod(k * ratio, 1.0));
-  return out;
-}
-
-/// The midpoints of the quarter of intervals near which the torques curve most.
-std::vector<double> curvedInstants(const std::vector<Answered>& instants) {
-  std::vector<std::pair<double, double>> curved;  // second difference, middle
-  for (std::size_t k = 1; k + 1 < instants.size(); ++k) {
-    const Answered &a = instants[k - 1], &b = instants[k], &c = instants[k + 1];
-    const double share = (b.t - a.t) / (c.t - a.t);
-    const double bend =
-        (b.torques - (1 - share) * a.torques - share * c.torques).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    curved.emplace_back(std::isnan(bend) ? std::numeric_limits<double>::infinity() : bend, (b.t + c.t) / 2);
-  }
-  const std::size_t count = curved.size() / 4;
-  std::nth_element(curved.begin(), curved.begin() + static_cast<std::ptrdiff_t>(count), curved.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::vector<double> out;
-  for (std::size_t k = 0; k < count; ++k) out.push_back(curved[k].second);
-  return out;
-}
 
 /// Simbody's efforts as a subject, with which the NOC is compared.
 Subject simbodySubject(const Scenario& scenario) {
@@ -127,10 +100,6 @@ double widestGap(const std::vector<Answered>& in_order, double duration) {
   return std::max(gap, duration - before);
 }
 
-void sortByTime(std::vector<Answered>& answers) {
-  std::stable_sort(answers.begin(), answers.end(), [](const Answered& a, const Answered& b) { return a.t < b.t; });
-}
-
 /// `what` says what was compared.
 Check checkOf(const Comparison& comparison, const std::string& what, double gap,
               const std::vector<PointwiseSample>& samples, double along, const Units& units) {
@@ -166,7 +135,7 @@ Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::
   try {
     ask(goldenInstants(duration, count));  // not in time order, so that large deviations appear early
     sortByTime(instants);
-    ask(curvedInstants(instants));
+    ask(curvedInstants(instants, instants.size() / 4));
   } catch (const PoseError& error) {
     return notMade(check_name, units.efforts.unit, std::string("no answer: ") + error.what());
   }

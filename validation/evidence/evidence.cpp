@@ -8,6 +8,7 @@
 #include "simbody/simbody_loop.h"
 #include "validation/replay/observed_order.h"
 #include "validation/replay/windows.h"
+#include "validation/subject/asked_instants.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -67,9 +68,14 @@ void runReplays(bool ladder, Evidence& evidence) {
                                              rungSettings(evidence), reference.deadline);
     evidence.orders = fault.lower_order ? observedOrders(scenario, true, reference.deadline) : reference.orders();
   }
+  Subject driving = *evidence.subject;
+  if (driving.most_questions > 0) {
+    driving.torques = [&evidence](const Motion<double>& motion) { return evidence.plan.torques(motion.t); };
+    driving.foresee = nullptr;
+  }
   evidence.stabilised =
-      stabilisedReplay(fault.feedback ? fault.feedback(scenario) : scenario, *evidence.subject,
-                       reference.replays().amplification, reference.rounding().along(),
+      stabilisedReplay(fault.feedback ? fault.feedback(scenario) : scenario, driving, reference.replays().amplification,
+                       reference.rounding().along(),
                        first_is_right && !fault.feedback ? &reference.stabilised() : nullptr, reference.deadline);
 }
 
@@ -94,14 +100,42 @@ void gatherSamples(const Experiments& experiments, Evidence& out) {
   tell(1);
 }
 
+/// Asks a subject of few questions between the samples, and at some samples again, in another order. Some questions are
+/// left for its terms apart, if it is wrong. Replays then run on all of these answers.
+void askBetween(Evidence& out) {
+  constexpr std::size_t again = 32;
+  constexpr int for_causes = 128, least = 64;
+  const Subject& subject = *out.subject;
+  const Trajectory& trajectory = *out.scenario->trajectory;
+  const std::vector<double>& samples = out.reference->instants;
+  const int left = std::max(least, subject.most_questions - static_cast<int>(samples.size() + again) - for_causes);
+  const auto ask = [&](const std::vector<double>& instants) {
+    foresee(subject, trajectory, instants);
+    for (const double t : instants) subject.torques(trajectory.at(t));
+  };
+  ask(goldenInstants(trajectory.duration(), left * 4 / 5));  // not in order of time
+  std::vector<Answered> answers = subject.answers();
+  sortByTime(answers);
+  ask(curvedInstants(answers, static_cast<std::size_t>(left) / 5));
+  std::vector<double> repeated;
+  for (std::size_t k = again; k-- > 0;) repeated.push_back(samples[k * (samples.size() - 1) / (again - 1)]);
+  ask(repeated);
+}
+
 void planReplays(Evidence& out) {
   const RightReplays& right = out.reference->replays();
   out.amplification = &right.amplification;
   out.plan = right.plan;
   const Subject subject = *out.subject;
   const auto trajectory = out.scenario->trajectory;
-  out.plan.torques = [subject, trajectory](double t) { return subject.torques(trajectory->at(t)); };
-  if (subject.foresee)
+  if (subject.most_questions > 0) {
+    const auto answers = std::make_shared<const InterpolatedAnswers>(right.plan.torques, subject.answers());
+    out.plan.torques = [answers](double t) { return (*answers)(t); };
+    out.spline = "driven by the NOC's torques plus the interpolated difference of the answers";
+  } else {
+    out.plan.torques = [subject, trajectory](double t) { return subject.torques(trajectory->at(t)); };
+  }
+  if (subject.foresee && subject.most_questions == 0)
     out.plan.foresee = [subject, trajectory](const std::vector<double>& instants) {
       foresee(subject, *trajectory, instants);
     };
@@ -139,8 +173,11 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
   out.has = SubjectHas(subject);
   out.has.left_out_ladder = !experiments.ladder;
   out.has.left_out_reactions = !experiments.reactions;
+  out.has.left_out_replays = experiments.samples_alone;
   try {
     gatherSamples(experiments, out);
+    if (experiments.samples_alone) return out;
+    if (subject.most_questions > 0 && out.answered()) askBetween(out);
     planReplays(out);
     if (out.answered()) runReplays(experiments.ladder, out);
   } catch (const OutOfTime& over) {

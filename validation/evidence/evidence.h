@@ -67,7 +67,7 @@ struct Evidence {
   std::optional<std::vector<double>> orders;
   std::optional<StabilisedReplay> stabilised;
 
-  std::string spline;        ///< error of the replayed torques between those of a file, in words
+  std::string spline;        ///< how the replayed torques come from those of a file or from few answers, in words
   std::string not_replayed;  ///< why no replay is possible, else empty
   double replay_bound = std::numeric_limits<double>::quiet_NaN();  ///< the limit, m, if it prevents the replay
 
@@ -86,7 +86,7 @@ struct Witness {
 
 /// Which experiments are run.
 struct Experiments {
-  bool ladder = true, reactions = true;
+  bool ladder = true, reactions = true, samples_alone = false;
   std::vector<Witness> witnesses = {};
   std::function<void(double share)> progress = nullptr;  ///< receives the completed share of the work at the samples
 };

@@ -21,6 +21,8 @@ double ExternalTorques::largestPrecision() const {
 
 std::string ExternalTorques::precisionInWords(const Units& units) const {
   const double largest = largestPrecision();
+  if (!file.derived_from.empty())
+    return fmt::format("; and {}, up to {:.3g} {}", file.derived_from, largest * units.effort(), units.efforts.unit);
   return largest == 0 ? "; the file's digits are as fine as doubles and add nothing"
                       : fmt::format(
                             "; and half a unit of the last digit printed (torques of up to {} significant digits, "

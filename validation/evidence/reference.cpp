@@ -59,12 +59,14 @@ RoundingAlong::RoundingAlong(const PreparedScenario& of, const Deadline& deadlin
       position_scale(positionScale(along())),
       forces(loopForces(along())) {}
 
-Reference::Reference(const Scenario& given, int threads, const Deadline& whole, const FormulationFaults& of)
+Reference::Reference(const Scenario& given, int threads, const Deadline& whole, const FormulationFaults& of,
+                     bool with_replays)
     : PreparedScenario(given), deadline(whole.part()), faults(of), in_simbody(of.simbody.of(scenario)) {
-  background_.start(threads - 1,
-                    {[this] { orders(); }, [this] { simbody(); }, [this] { engines(); }});  // longest first
+  std::vector<BackgroundTasks::Task> first = {[this] { simbody(); }, [this] { engines(); }};
+  if (with_replays) first.insert(first.begin(), [this] { orders(); });  // longest first
+  background_.start(threads - 1, first);
   rounding();
-  if (!whole.isSet()) replays();  // with a deadline, work without replays comes first
+  if (!whole.isSet() && with_replays) replays();  // with a deadline, work without replays comes first
 }
 
 Reference::~Reference() {

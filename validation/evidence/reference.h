@@ -74,9 +74,9 @@ class Reference : public PreparedScenario {
  public:
   /// Uses that many threads, which changes no number. Throws like validate(). After the deadline, this or a request for
   /// a missing part throws OutOfTime.
-  /// `faults` falsify it for negative controls.
+  /// `faults` falsify it for negative controls. Without replays, it makes none in advance.
   explicit Reference(const Scenario& given, int threads = 1, const Deadline& deadline = {},
-                     const FormulationFaults& faults = {});
+                     const FormulationFaults& faults = {}, bool with_replays = true);
   /// Ends what is under way, because nobody needs it any more.
   ~Reference();
   Reference(const Reference&) = delete;

@@ -98,6 +98,8 @@ void addAsked(const std::optional<EffortTolerance>& users, ValidationResult& res
   if (tolerance.any) add("any tolerance", "yes");
   if (!result.subject.map.empty()) add("columns named", result.subject.map);
   if (result.subject.called_by == CalledBy::solver) add("solver process", result.subject.name);
+  if (result.subject.called_by == CalledBy::simulator) add("simulator process", result.subject.name);
+  if (result.subject.called_by == CalledBy::trajectory) add("motion file", result.subject.name);
 }
 
 /// Adds what a scenario of either kind asks for, and by which build it was judged.

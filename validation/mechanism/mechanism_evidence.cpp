@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "model/instants.h"
 #include "simbody/simbody_mechanism.h"
+#include "validation/subject/asked_instants.h"
 
 namespace ursula {
 namespace {
@@ -83,24 +85,13 @@ void compareBodies(const SimbodyMechanism& engine, const LoopWork& work, double 
 }
 
 std::vector<double> judgedInstants(const MechanismScenario& scenario, const MechanismSubject& subject) {
-  if (!subject.given) return equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples);
+  if (!subject.given)
+    return equallySpaced(scenario.trajectory->duration(), std::min(scenario.simulation.samples, subject.most_samples));
   return subject.given->t;
 }
 
-/// The multiples of the golden ratio match no period.
-std::vector<double> goldenInstants(double duration, int count) {
-  std::vector<double> out;
-  const double ratio = (std::sqrt(5.0) - 1) / 2;
-  for (int k = 1; k <= count; ++k) {
-    const double turns = k * ratio;
-    out.push_back(duration * (turns - std::floor(turns)));
-  }
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
 /// Asks the subject for many instants at once.
-std::vector<MotorEfforts> answersOf(const MechanismSubject& subject, const LoopMotion& motion,
+std::vector<MotorEfforts> answersOf(const MechanismSubject& subject, bool between, const LoopMotion& motion,
                                     const std::vector<double>& instants, const Deadline& deadline) {
   std::vector<MechanismQuestion> questions;
   LoopWork work;
@@ -112,7 +103,7 @@ std::vector<MotorEfforts> answersOf(const MechanismSubject& subject, const LoopM
     motion.solver().kinematics(questions.back().motion, pose, work);
     questions.back().joints = motion.solver().joints(work);
   }
-  return subject.answers(questions);
+  return between && subject.answers_between ? subject.answers_between(questions) : subject.answers(questions);
 }
 
 void setUnits(const Mechanism& mechanism, MechanismEvidence& out) {
@@ -155,6 +146,7 @@ MechanismSample nocAt(const LoopMotion& motion, double t, LoopWork& work) {
   out.noc = motion.inverseDynamics(t, work);
   out.scale = motion.solver().effortScale(work);
   out.condition = 1 / work.reciprocal_condition;
+  out.inverse_inertia = motion.solver().inertia(work).inverse();
   return out;
 }
 
@@ -168,7 +160,6 @@ void addEngines(const std::vector<char>& idle, bool direct, LoopWork& work, cons
   SimbodyMechanism& simbody = evidence.placed();
   compareBodies(simbody, work, mechanism.length(), idle, sample);
   sample.acceleration = simbody.accelerations(sample.subject);
-  sample.inverse_inertia = solver.inertia(work).inverse();
   sample.across = acrossOf(mechanism, work);
   sample.rank = rankOfShaping(work, mechanism.length());
   if (direct) sample.direct = solver.directDynamics(sample.motion, sample.noc, work.pose, work);
@@ -176,11 +167,11 @@ void addEngines(const std::vector<char>& idle, bool direct, LoopWork& work, cons
 
 /// Asks the subject, or Simbody if the subject is the NOC, between the samples.
 void askBetween(const MechanismSubject& subject, const Deadline& deadline, MechanismEvidence& out) {
-  constexpr int count = 600;
   const LoopMotion& motion = *out.motion;
-  const std::vector<double> dense = goldenInstants(motion.trajectory().duration(), count);
+  std::vector<double> dense = goldenInstants(motion.trajectory().duration(), subject.between);
+  std::sort(dense.begin(), dense.end());
   std::vector<MotorEfforts> answers;
-  if (subject.answers) answers = answersOf(subject, motion, dense, deadline);
+  if (subject.answers) answers = answersOf(subject, true, motion, dense, deadline);
   SimbodyMechanism simbody(*out.scenario->mechanism);
   LoopWork work;
   for (std::size_t i = 0; i < dense.size(); ++i) {
@@ -190,6 +181,12 @@ void askBetween(const MechanismSubject& subject, const Deadline& deadline, Mecha
     sample.subject = subject.answers ? answers[i] : MotorEfforts(simbody.inverseDynamics());
     out.between.push_back(std::move(sample));
   }
+}
+
+/// What the rounding of a simulator's accelerations makes of efforts.
+MotorEfforts roundedAccelerations(const MechanismEvidence& evidence, const MechanismSample& sample) {
+  const MotorEfforts accelerations = (2 * evidence.level + evidence.acceleration_level) * evidence.response(sample);
+  return sample.inverse_inertia.inverse().cwiseAbs() * accelerations;
 }
 
 void setCover(const std::vector<double>& instants, double duration, MechanismEvidence& out) {
@@ -212,7 +209,7 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
   out.level = 4 * std::sqrt(12.0 * static_cast<double>(mechanism.bodies().size() + mechanism.joints().size()));
   const std::vector<double> instants = judgedInstants(scenario, subject);
   std::vector<MotorEfforts> answers;
-  if (subject.answers) answers = answersOf(subject, motion, instants, deadline);
+  if (subject.answers) answers = answersOf(subject, false, motion, instants, deadline);
   for (const MakeMechanismEngine& make : makers)
     if (auto engine = make(scenario)) out.engines.push_back(std::move(*engine));
   const std::vector<char> idle = idleBodies(motion.solver());
@@ -230,8 +227,12 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
     out.samples.push_back(std::move(sample));
   }
   setCover(instants, motion.trajectory().duration(), out);
-  if (!subject.given) askBetween(subject, deadline, out);
+  if (subject.given && !subject.given->derived_from.empty()) out.covers = true;  // windows lie within the motion
+  if (!subject.given && subject.between > 0) askBetween(subject, deadline, out);
   measureLevels(out);
+  if (subject.gives_accelerations)
+    for (std::vector<MechanismSample>* samples : {&out.samples, &out.between})
+      for (MechanismSample& sample : *samples) sample.given = roundedAccelerations(out, sample);
   if (subject.isNoc()) out.invariances = askInvariances(scenario, motion);
   return out;
 }

@@ -37,13 +37,20 @@ struct GivenEfforts {
   std::vector<double> time_precision;   ///< the same of the instants, s; empty if they are exact
   std::string read_as;
   std::vector<std::string> ignored;
+  std::string derived_from;  ///< where the precision comes from, if not from printed digits
 };
 
 /// Whose efforts are judged. Without `answers` and `given` it is this program's NOC.
 struct MechanismSubject {
   JudgedSubject about = {"noc", Formulation::noc};
   std::function<std::vector<MotorEfforts>(const std::vector<MechanismQuestion>&)> answers;
+  /// The same between the samples; empty if it is the same.
+  std::function<std::vector<MotorEfforts>(const std::vector<MechanismQuestion>&)> answers_between;
+  bool gives_accelerations = false;  ///< the answers come from accelerations, whose rounding they have
   std::shared_ptr<const GivenEfforts> given;
+
+  /// Instants between the samples, and the most samples of a solver that is not asked thoroughly.
+  int between = 600, most_samples = std::numeric_limits<int>::max();
 
   bool isNoc() const { return !answers && !given; }
 };

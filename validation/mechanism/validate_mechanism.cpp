@@ -114,6 +114,9 @@ std::string whyNotOf(const CheckRow& row, const MechanismSubject& subject, const
   Check check;
   check.name = row.name;
   const std::string& name = check.name;
+  const bool is_quick = subject.between == 0;
+  if (is_quick && (name == "torque.between" || (subject.isNoc() && (isOf(check, "replay") || isOf(check, "closure")))))
+    return "left out by the caller's options";
   if (!evidence.not_replayed.empty() && (isOf(check, "replay") || isOf(check, "closure"))) return evidence.not_replayed;
   for (const char* of_paths : {"feedback", "integration", "energy", "motion", "fast", "reactions"})
     if (isOf(check, of_paths)) return "not made for machines of this kind";
@@ -193,6 +196,15 @@ void addFacts(const MechanismAlong& along, const MechanismSubject& subject, cons
   result.replay_windows = evidence.windows.size();
 }
 
+/// How often the subject is asked. A solver may be slow: at most 2,000 times, unless somebody wants it thorough.
+MechanismSubject asAsked(MechanismSubject subject, const MechanismOptions& options) {
+  constexpr int between_if_thorough = 8192, most_questions = 2000;
+  if (subject.answers && options.thorough) subject.between = between_if_thorough;
+  if (subject.answers && !options.thorough) subject.most_samples = most_questions - subject.between;
+  if (options.quick) subject.between = 0;
+  return subject;
+}
+
 /// Zeros must not pass.
 void requireTelling(const MechanismScenario& scenario, double largest, const std::string& unit) {
   if (!scenario.tolerance || scenario.tolerance->any) return;
@@ -216,8 +228,9 @@ MechanismAlong::MechanismAlong(const MechanismScenario& scenario) {
   motion_ = std::make_unique<LoopMotion>(*solver_, *scenario.trajectory, start);
 }
 
-ValidationResult validateMechanism(const MechanismScenario& scenario, const MechanismSubject& subject,
+ValidationResult validateMechanism(const MechanismScenario& scenario, const MechanismSubject& given,
                                    const MechanismOptions& options) {
+  const MechanismSubject subject = asAsked(given, options);
   const Deadline deadline(options.time_limit, options.asked_to_end);
   const MechanismAlong along(scenario);
   std::vector<MakeMechanismEngine> makers = {
@@ -233,7 +246,7 @@ ValidationResult validateMechanism(const MechanismScenario& scenario, const Mech
       if (options.progress) options.progress(0.7 * share, "experiments");
     };
     evidence = gatherMechanism(scenario, along.motion(), subject, makers, deadline, tell);
-    if (subject.isNoc()) {
+    if (subject.isNoc() && !options.quick) {
       LoopWork work;
       replayMechanism([&](double t) { return along.motion().inverseDynamics(t, work); }, deadline, evidence);
     }

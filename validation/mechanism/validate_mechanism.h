@@ -14,6 +14,8 @@ struct MechanismOptions {
   double time_limit = 0;  ///< s; 0: none
   std::function<bool()> asked_to_end = nullptr;
   std::function<void(double share, const char* now)> progress = nullptr;
+  bool thorough = false;  ///< a solver is asked at every sample, and at more instants between them
+  bool quick = false;     ///< only what the samples show
 };
 
 /// Validates a mechanism of any kind: as validate() does a manipulator, by the same catalogue of checks. Throws

@@ -10,28 +10,28 @@
 #include "base/deadline.h"
 #include "base/text.h"
 #include "validation/outside/line_process.h"
+#include "validation/outside/pieces.h"
 
 namespace ursula {
 namespace {
 
 /// Time for a process to end by itself after its input is closed, s.
 constexpr double grace = 1;
-/// About so many instants does a validation ask for.
-constexpr double usual_questions = 20000;
 
 /// A process that speaks the protocol.
 class Process {
  public:
-  Process(const ExternalSolverOptions& options, const LineProcess::Environment& environment)
-      : options_(options), process_(options.command, environment) {}
+  Process(const ExternalSolverOptions& options, const LineProcess::Environment& environment,
+          const char* role = "solver", const char* what = "effort")
+      : options_(options), process_(options.command, environment), role_(role), what_(what) {}
 
-  Eigen::VectorXd torques(const std::string& question, int motors) {
+  Eigen::VectorXd answer(const std::string& question, int count) {
     if (const std::string unasked = process_.unasked(); !unasked.empty())
       refuse("wrote something that it was not asked for, expected one line for each question", question, unasked);
     const LineProcess::Answer answer = process_.ask(question, options_.timeout);
     if (answer.end != LineProcess::End::line) refuse(why(answer.end), question, answer.text);
     try {
-      return solverAnswer(answer.text, motors);
+      return solverAnswer(answer.text, count, what_);
     } catch (const SolverProcessError& error) {
       refuse("gave an invalid answer: " + std::string(error.what()), question, answer.text);
     }
@@ -47,12 +47,13 @@ class Process {
   }
 
   [[noreturn]] void refuse(const std::string& what, const std::string& question, const std::string& answer) const {
-    throw SolverProcessError(fmt::format("the solver '{}' {}\n  question: {}\n  answer:   {}", options_.command, what,
-                                         question, answer.empty() ? "none" : shown(answer, most_shown)));
+    throw SolverProcessError(fmt::format("the {} '{}' {}\n  question: {}\n  answer:   {}", role_, options_.command,
+                                         what, question, answer.empty() ? "none" : shown(answer, most_shown)));
   }
 
   ExternalSolverOptions options_;
   LineProcess process_;
+  const char *role_, *what_;
 };
 
 LineProcess::Environment environmentOf(const std::filesystem::path& scenario) {
@@ -68,19 +69,20 @@ ValidationResult validateExternalSolver(const Scenario& scenario, const External
   OutsideSolver solver;
   solver.name = options.command;
   solver.called_by = CalledBy::solver;
-  const auto asked = std::make_shared<int>(0);
-  solver.torques = [process, deadline, asked, tell = validation.progress](const std::vector<Motion<double>>& motions) {
+  const auto asked = std::make_shared<long>(0);
+  solver.torques = [process, deadline, asked, tell = validation.progress,
+                    thorough = validation.thorough](const std::vector<Motion<double>>& motions) {
     std::vector<Vector6d> out;
     out.reserve(motions.size());
     for (const Motion<double>& motion : motions) {
       deadline.require();  // an answer may take long
-      out.push_back(process->torques(solverQuestion(motion), motor_count));
-      if (tell) tell(std::min(++*asked / usual_questions, 0.99), "asking the solver");
+      out.push_back(process->answer(solverQuestion(motion), motor_count));
+      if (tell) tell(shareOfQuestions(++*asked, thorough), "asking the solver");
     }
     return out;
   };
   ValidationOptions silent = validation;
-  silent.progress = nullptr;  // the answers take nearly all of the time
+  silent.progress = nullptr;
   ValidationResult result = validateOutside(scenario, solver, silent);
   process->finish();
   return result;
@@ -88,30 +90,48 @@ ValidationResult validateExternalSolver(const Scenario& scenario, const External
 
 namespace {
 
-/// The motors' q, rates and accelerations, then the same of all other joints.
-std::string questionOf(const MechanismQuestion& question) {
+/// The motors' q, rates and accelerations, then the same of all other joints; without accelerations if there are
+/// efforts, which then end it.
+std::string questionOf(const MechanismQuestion& question, const MotorEfforts* efforts = nullptr) {
   std::string out = fmt::format("{:.17g}", question.motion.t);
   const auto add = [&out](double value) { out += fmt::format(",{:.17g}", value); };
-  for (const Eigen::VectorXd* each : {&question.motion.q, &question.motion.qdot, &question.motion.qddot})
-    for (Eigen::Index k = 0; k < each->size(); ++k) add((*each)(k));
+  const auto addAll = [&add](const Eigen::VectorXd& values) { std::for_each(values.begin(), values.end(), add); };
+  addAll(question.motion.q);
+  addAll(question.motion.qdot);
+  if (efforts == nullptr) addAll(question.motion.qddot);
   for (const auto& joint : question.joints) add(joint.value);
   for (const auto& joint : question.joints) add(joint.rate);
-  for (const auto& joint : question.joints) add(joint.acceleration);
+  for (const auto& joint : question.joints)
+    if (efforts == nullptr) add(joint.acceleration);
+  if (efforts != nullptr) addAll(*efforts);
   return out;
 }
 
 /// Names the numbers of a question.
-std::string columnsOf(const MechanismScenario& scenario) {
+std::string columnsOf(const MechanismScenario& scenario, bool with_efforts) {
   const MechanismAlong along(scenario);
   LoopWork work;
   static_cast<void>(along.motion().inverseDynamics(0, work));
   std::string out = "t_s";
-  for (const char* quantity : {"q", "qdot", "qddot"})
+  const auto addMotors = [&](const char* quantity) {
     for (std::size_t k = 0; k < scenario.mechanism->motorCount(); ++k)
       out += "," + motorColumn(*scenario.mechanism, k, quantity);
+  };
+  addMotors("q");
+  addMotors("qdot");
+  if (!with_efforts) addMotors("qddot");
   const std::vector<LoopSolver::JointValue> joints = along.solver().joints(work);
   for (const char* prefix : {"", "d_", "dd_"})
-    for (const LoopSolver::JointValue& joint : joints) out += "," + (prefix + joint.name);
+    for (const LoopSolver::JointValue& joint : joints)
+      if (!with_efforts || std::string(prefix) != "dd_") out += "," + (prefix + joint.name);
+  if (with_efforts) addMotors("tau");
+  return out;
+}
+
+LineProcess::Environment environmentOf(const MechanismScenario& scenario, bool with_efforts) {
+  LineProcess::Environment out = environmentOf(scenario.file);
+  out.emplace_back("URSULA_COLUMNS", columnsOf(scenario, with_efforts));
+  out.emplace_back("URSULA_MODEL", std::filesystem::absolute(scenario.model).string());
   return out;
 }
 
@@ -119,23 +139,82 @@ std::string columnsOf(const MechanismScenario& scenario) {
 
 ValidationResult validateExternalSolver(const MechanismScenario& scenario, const ExternalSolverOptions& options,
                                         const MechanismOptions& validation) {
-  LineProcess::Environment environment = environmentOf(scenario.file);
-  environment.emplace_back("URSULA_COLUMNS", columnsOf(scenario));
-  environment.emplace_back("URSULA_MODEL", std::filesystem::absolute(scenario.model).string());
-  const auto process = std::make_shared<Process>(options, environment);
+  const auto process = std::make_shared<Process>(options, environmentOf(scenario, false));
   const Deadline deadline(validation.time_limit);
+  long asked = 0;
   MechanismSubject subject;
   subject.about = {options.command, Formulation::external, CalledBy::solver};
   subject.answers = [&](const std::vector<MechanismQuestion>& questions) {
     std::vector<MotorEfforts> out;
     for (const MechanismQuestion& question : questions) {
       deadline.require();  // an answer may take long
-      out.push_back(process->torques(questionOf(question), static_cast<int>(scenario.mechanism->motorCount())));
+      out.push_back(process->answer(questionOf(question), static_cast<int>(scenario.mechanism->motorCount())));
+      if (validation.progress) validation.progress(shareOfQuestions(++asked, validation.thorough), "asking the solver");
     }
     return out;
   };
-  ValidationResult result = validateMechanism(scenario, subject, validation);
+  MechanismOptions silent = validation;
+  silent.progress = nullptr;
+  ValidationResult result = validateMechanism(scenario, subject, silent);
   process->finish();
+  return result;
+}
+
+namespace {
+
+/// A process that is asked for accelerations until the deadline; `questions` are its lines.
+class SimulatorProcess {
+ public:
+  SimulatorProcess(const ExternalSolverOptions& options, const LineProcess::Environment& environment, double time_limit)
+      : process_(options, environment, "simulator", "acceleration"), deadline_(time_limit) {}
+
+  Eigen::VectorXd answer(const std::string& question, int count) {
+    deadline_.require();  // an answer may take long
+    return process_.answer(question, count);
+  }
+  void finish() { process_.finish(); }
+
+ private:
+  Process process_;
+  Deadline deadline_;
+};
+
+}  // namespace
+
+ValidationResult validateExternalSimulator(const Scenario& scenario, const ExternalSolverOptions& options,
+                                           const ValidationOptions& validation) {
+  SimulatorProcess process(options, environmentOf(scenario.file), validation.time_limit);
+  OutsideSimulator simulator;
+  simulator.name = options.command;
+  simulator.called_by = CalledBy::simulator;
+  simulator.accelerations = [&](const std::vector<Motion<double>>& states, const std::vector<Vector6d>& efforts) {
+    std::vector<Vector6d> out;
+    for (std::size_t k = 0; k < states.size(); ++k) {
+      const Vector6d linear_first = process.answer(simulatorQuestion(states[k], efforts[k]), 6);
+      out.emplace_back();
+      out.back() << linear_first.tail<3>(), linear_first.head<3>();
+    }
+    return out;
+  };
+  ValidationResult result = validateSimulator(scenario, simulator, validation);
+  process.finish();
+  return result;
+}
+
+ValidationResult validateExternalSimulator(const MechanismScenario& scenario, const ExternalSolverOptions& options,
+                                           const MechanismOptions& validation) {
+  SimulatorProcess process(options, environmentOf(scenario, true), validation.time_limit);
+  MechanismSimulator simulator;
+  simulator.about = {options.command, Formulation::external, CalledBy::simulator};
+  simulator.accelerations = [&](const std::vector<MechanismQuestion>& states,
+                                const std::vector<MotorEfforts>& efforts) {
+    std::vector<Eigen::VectorXd> out;
+    for (std::size_t k = 0; k < states.size(); ++k)
+      out.push_back(process.answer(questionOf(states[k], &efforts[k]), static_cast<int>(efforts[k].size())));
+    return out;
+  };
+  ValidationResult result = validateSimulator(scenario, simulator, validation);
+  process.finish();
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include "model/scenario.h"
 #include "validation/mechanism/validate_mechanism.h"
 #include "validation/outside/line_process.h"
+#include "validation/outside/outside_simulator.h"
 #include "validation/outside/outside_solver.h"
 
 namespace ursula {
@@ -24,5 +25,13 @@ ValidationResult validateExternalSolver(const Scenario& scenario, const External
 /// URSULA_COLUMNS names them, and URSULA_MODEL is the model's path.
 ValidationResult validateExternalSolver(const MechanismScenario& scenario, const ExternalSolverOptions& options,
                                         const MechanismOptions& validation = {});
+
+/// Validates a separate process as a simulator: a line has t, p, q, v, w and the motors' efforts, and its answer is
+/// a_x, …, alpha_z, the platform's acceleration in B. For a mechanism a line has t, the motors' q and rates, the values
+/// and rates of all other joints, and the efforts; its answer is the accelerations of the motors' coordinates.
+ValidationResult validateExternalSimulator(const Scenario& scenario, const ExternalSolverOptions& options,
+                                           const ValidationOptions& validation = {});
+ValidationResult validateExternalSimulator(const MechanismScenario& scenario, const ExternalSolverOptions& options,
+                                           const MechanismOptions& validation = {});
 
 }  // namespace ursula

@@ -166,12 +166,12 @@ bool isBelowRange(std::string_view digits) {
 }
 
 /// A number smaller than any double becomes 0.
-double numberOf(std::string_view cell, int index) {
+double numberOf(std::string_view cell, int index, const char* what) {
   const std::string_view digits = trimmed(cell);
   const LeadingNumber number = leadingNumber(digits);
   if (number.length > 0 && number.length == digits.size() && std::isfinite(number.value)) return number.value;
   if (number.length == 0 && isBelowRange(digits)) return 0;
-  throw SolverProcessError(fmt::format("its effort {} is '{}', expected a finite number{}", index,
+  throw SolverProcessError(fmt::format("its {} {} is '{}', expected a finite number{}", what, index,
                                        shown(digits, most_shown),
                                        cell.find_first_of("[(") != cell.npos ? ", and no brackets" : ""));
 }
@@ -185,9 +185,16 @@ std::string solverQuestion(const Motion<double>& motion) {
                      cells(motion.p_dot), cells(motion.omega), cells(motion.p_ddot), cells(motion.omega_dot));
 }
 
+std::string simulatorQuestion(const Motion<double>& state, const Vector6d& efforts) {
+  const auto cells = [](const auto& vector) { return fmt::join(vector.begin(), vector.end(), ","); };
+  const Eigen::Vector4d q = quaternions({state}).front();
+  return fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}", state.t, cells(state.p), cells(q),
+                     cells(state.p_dot), cells(state.omega), cells(efforts));
+}
+
 Vector6d solverAnswer(const std::string& line) { return solverAnswer(line, motor_count); }
 
-Eigen::VectorXd solverAnswer(const std::string& line, int motors) {
+Eigen::VectorXd solverAnswer(const std::string& line, int count, const char* what) {
   std::vector<std::string_view> cells;
   const std::string_view text = line;
   for (std::size_t start = 0; start <= text.size();) {
@@ -195,12 +202,12 @@ Eigen::VectorXd solverAnswer(const std::string& line, int motors) {
     cells.push_back(text.substr(start, end - start));
     start = end + 1;
   }
-  if (cells.size() != static_cast<std::size_t>(motors))
+  if (cells.size() != static_cast<std::size_t>(count))
     throw SolverProcessError(fmt::format("{} value{}, expected {}, separated by commas", cells.size(),
                                          cells.size() == 1 ? "" : "s",
-                                         motors == motor_count ? "six" : std::to_string(motors)));
-  Eigen::VectorXd out(motors);
-  for (int i = 0; i < motors; ++i) out(i) = numberOf(cells[static_cast<std::size_t>(i)], i + 1);
+                                         count == motor_count ? "six" : std::to_string(count)));
+  Eigen::VectorXd out(count);
+  for (int i = 0; i < count; ++i) out(i) = numberOf(cells[static_cast<std::size_t>(i)], i + 1, what);
   return out;
 }
 

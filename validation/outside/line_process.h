@@ -60,8 +60,11 @@ std::string solverQuestion(const Motion<double>& motion);
 /// Parses six comma-separated efforts in the order of the motors, N·m or N. Throws SolverProcessError with the defect
 /// of `line`.
 Vector6d solverAnswer(const std::string& line);
-/// The same for any number of motors.
-Eigen::VectorXd solverAnswer(const std::string& line, int motors);
+/// The same for any number of numbers; `what` they are, for messages.
+Eigen::VectorXd solverAnswer(const std::string& line, int count, const char* what = "effort");
+
+/// The question to a simulator: t, p, q, v, w, then the six efforts.
+std::string simulatorQuestion(const Motion<double>& state, const Vector6d& efforts);
 
 /// The largest part of an answer in messages, in bytes.
 constexpr std::size_t most_shown = 600;

@@ -1,8 +1,6 @@
 #include "validation/outside/outside_solver.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -10,6 +8,7 @@
 #include <unordered_map>
 
 #include "base/deadline.h"
+#include "validation/outside/pieces.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -20,13 +19,14 @@ struct SolverStopped {};
 
 bool same(const Motion<double>& a, const Motion<double>& b) { return a.t == b.t && sameState(a, b); }
 
-/// The longest call under a time limit, s, and how many more motions than before one may have.
-constexpr double longest_call = 0.25, most_more = 8;
+/// The samples of a motion that a solver of few questions is asked; half of them are for the instants between.
+constexpr int most_samples = 1001;
 
 /// Asks the solver, remembers its last answers, and stores its exception. Under a time limit it asks in pieces.
 class Asking {
  public:
-  Asking(const OutsideSolver& solver, double time_limit) : solver_(solver), deadline_(time_limit) {}
+  Asking(const OutsideSolver& solver, const ValidationOptions& options)
+      : solver_(solver), pieces_(Deadline(options.time_limit), toldOf(options)) {}
 
   Vector6d one(const Motion<double>& motion) {
     const std::lock_guard<std::mutex> one_at_a_time(mutex_);
@@ -73,7 +73,7 @@ class Asking {
     if (thrown_) throw SolverStopped{};
     std::vector<Vector6d> answers;
     try {
-      answers = deadline_.isSet() ? inPieces(motions) : answersTo(motions);
+      answers = pieces_.answers(motions, [this](const auto& some) { return answersTo(some); });
     } catch (const OutOfTime&) {
       throw;  // the validation's end, not the solver's
     } catch (...) {
@@ -95,26 +95,15 @@ class Asking {
     return answers;
   }
 
-  /// The pieces grow until a call takes long, because the rate is unknown at first.
-  std::vector<Vector6d> inPieces(const std::vector<Motion<double>>& motions) {
-    using Clock = std::chrono::steady_clock;
-    std::vector<Vector6d> out;
-    for (auto from = motions.begin(), to = from; from != motions.end(); from = to) {
-      deadline_.require();
-      to += std::min(piece_, motions.end() - from);
-      const Clock::time_point begun = Clock::now();
-      const std::vector<Vector6d> some = answersTo({from, to});
-      const double share = std::chrono::duration<double>(Clock::now() - begun).count() / longest_call;
-      out.insert(out.end(), some.begin(), some.end());
-      if (to - from == piece_ || share > 1)
-        piece_ = std::max(1L, std::lround(static_cast<double>(to - from) / std::max(share, 1 / most_more)));
-    }
-    return out;
+  static Pieces::Told toldOf(const ValidationOptions& options) {
+    if (!options.progress) return nullptr;
+    return [tell = options.progress, thorough = options.thorough](long asked) {
+      tell(shareOfQuestions(asked, thorough), "asking the solver");
+    };
   }
 
   OutsideSolver solver_;
-  Deadline deadline_;
-  long piece_ = 1;  ///< motions in a call
+  Pieces pieces_;
   std::mutex mutex_;
   std::unordered_map<double, Answer> known_;  ///< by instant, since a solver is asked along one motion
   std::vector<Answered> all_;
@@ -125,15 +114,22 @@ class Asking {
 
 ValidationResult validateOutside(const Scenario& scenario, const OutsideSolver& solver,
                                  const ValidationOptions& options) {
-  const auto asking = std::make_shared<Asking>(solver, options.time_limit);
+  const auto asking = std::make_shared<Asking>(solver, options);
+  Scenario asked = scenario;
+  ValidationOptions silent = options;
+  silent.progress = nullptr;  // the answers take nearly all of the time
   Subject subject;
   subject.name = solver.name;
   subject.called_by = solver.called_by;
   subject.torques = [asking](const Motion<double>& motion) { return asking->one(motion); };
   subject.foresee = [asking](const std::vector<Motion<double>>& motions) { asking->foresee(motions); };
   subject.answers = [asking] { return asking->answers(); };
+  if (!options.thorough) {
+    subject.most_questions = most_questions;
+    asked.simulation.samples = std::min(asked.simulation.samples, most_samples);
+  }
   try {
-    ValidationResult result = validate(scenario, subject, options);
+    ValidationResult result = validate(asked, subject, silent);
     asking->rethrow();  // an engine may have hidden it
     return result;
   } catch (...) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/scenario.h"
+#include "validation/outside/pieces.h"
 #include "validation/validate.h"
 #include "validation/verdict/result.h"
 
@@ -21,7 +22,8 @@ struct OutsideSolver {
 };
 
 /// Validates a scenario with this solver under test. Checks that need a second machine, kinematics or direct dynamics
-/// are not applicable. It asks for many motions at once if they are known, and never twice in a row for one. An
+/// are not applicable. It asks for many motions at once if they are known, and never twice in a row for one. It asks
+/// at most 2,000 times, unless `options.thorough`; replays then run on the answers, interpolated. An
 /// exception of the solver ends the validation and is rethrown unchanged. Throws like validate(), and
 /// std::invalid_argument for a wrong number of answers.
 ValidationResult validateOutside(const Scenario& scenario, const OutsideSolver& solver,

@@ -48,6 +48,9 @@ struct Subject : JudgedSubject {
   std::function<void(const std::vector<Motion<double>>&)> foresee;
   /// Returns all answers so far; empty if it stores nothing.
   std::function<std::vector<Answered>()> answers;
+  /// At most about so many questions, of a subject that is slow: replays then run on its answers, interpolated
+  /// (InterpolatedAnswers). 0: as many as the integrators have.
+  int most_questions = 0;
   /// Creates the same solver for another machine, for invariances; empty if the subject is not a solver.
   std::function<Subject(const Manipulator&)> rebuilt;
 };

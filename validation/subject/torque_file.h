@@ -32,6 +32,9 @@ struct TorqueFile {
   std::string read_as;      ///< how columns were interpreted; empty for a file that follows the contract
   int digits = 0;           ///< largest number of significant digits of a torque
   bool all_single = false;  ///< every torque is a single-precision number
+  /// Where the precision comes from, in words, if not from printed digits; such torques are compared at their instants
+  /// and not replayed.
+  std::string derived_from;
 
   std::size_t rows() const { return t.size(); }
 };

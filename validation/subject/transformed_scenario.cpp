@@ -166,6 +166,7 @@ Subject transformed(const Subject& subject, const FrameChange& to) {
   from.units = {1 / units.length, 1 / units.mass, 1 / units.time, units.efforts};
   Subject out;
   static_cast<JudgedSubject&>(out) = subject;
+  out.most_questions = subject.most_questions;
   out.torques = [=](const Motion<double>& motion) { return to.of(subject.torques(from.of(motion))); };
   if (subject.foresee)
     out.foresee = [=](std::vector<Motion<double>> motions) {

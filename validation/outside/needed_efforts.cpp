@@ -1,0 +1,65 @@
+#include "validation/outside/needed_efforts.h"
+
+#include <Eigen/LU>
+#include <limits>
+
+namespace ursula {
+namespace {
+
+/// The search for one state's efforts.
+struct Search {
+  Eigen::VectorXd efforts, residual, step;
+  Eigen::MatrixXd mobility;  ///< accelerations per effort
+  double best = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd found;  ///< the efforts after the best answer, and its step
+  bool ended = false;
+
+  /// Takes an answer, and steps.
+  void take(const WantedState& state, const Eigen::VectorXd& accelerations) {
+    const Eigen::VectorXd now = state.wanted - accelerations;
+    if (step.size() > 0 && step.squaredNorm() > 0)
+      mobility += (residual - now - mobility * step) * step.transpose() / step.squaredNorm();
+    residual = now;
+    step = mobility.partialPivLu().solve(residual);
+    const double off = residual.cwiseProduct(state.scale).norm();
+    if (off < best || found.size() == 0) {
+      best = off;
+      found = step.allFinite() ? Eigen::VectorXd(efforts + step) : efforts;
+    }
+    ended = !(off > state.rounding) || !step.allFinite();
+    efforts += step;
+  }
+};
+
+}  // namespace
+
+std::vector<Eigen::VectorXd> neededEfforts(const std::vector<WantedState>& states, const AccelerationsIn& simulator,
+                                           long questions) {
+  std::vector<Search> searches(states.size());
+  std::vector<std::size_t> open;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    searches[k].efforts = states[k].efforts;
+    searches[k].mobility = states[k].inertia.inverse();
+    open.push_back(k);
+  }
+  const Eigen::Index n = states.empty() ? 0 : states.front().efforts.size();
+  for (Eigen::Index round = 0; round <= 2 * n + 1 && !open.empty(); ++round) {
+    if (round > 0 && static_cast<long>(open.size()) > questions) break;
+    questions -= static_cast<long>(open.size());
+    std::vector<Eigen::VectorXd> efforts;
+    for (const std::size_t k : open) efforts.push_back(searches[k].efforts);
+    const std::vector<Eigen::VectorXd> answers = simulator(open, efforts);
+    std::vector<std::size_t> left;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      Search& search = searches[open[i]];
+      search.take(states[open[i]], answers[i]);
+      if (!search.ended) left.push_back(open[i]);
+    }
+    open = left;
+  }
+  std::vector<Eigen::VectorXd> out;
+  for (Search& search : searches) out.push_back(search.found);
+  return out;
+}
+
+}  // namespace ursula
