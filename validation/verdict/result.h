@@ -315,6 +315,7 @@ struct ValidationResult {
   std::optional<ReplayError> replay_error;   ///< nullopt if the caller left it out
   std::optional<NamedCause> cause;           ///< of wrong efforts; nullopt unless exactly one explains everything
   std::vector<NamedCause> causes;            ///< others that explain the deviation equally well
+  std::vector<NamedCause> causes_together;   ///< two or three that explain it only together; `cause` is the first
   std::vector<TermError> terms;              ///< of a solver that was asked apart; empty for efforts from a file
   CauseWords cause_words;                    ///< empty if no effort is wrong
   std::size_t replay_windows = 0;            ///< number of windows in the replay
