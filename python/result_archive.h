@@ -107,10 +107,11 @@ inline void members(Archive& archive, std::shared_ptr<const Scenario>& asked) {
 
 inline void members(Archive& archive, ValidationResult& result) {
   auto& [scenario, kind, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause,
-         causes, terms, words, windows, deviation, effort, timeseries, curves, events, asked, mechanism] = result;
+         causes, together, terms, words, windows, deviation, effort, timeseries, curves, events, asked, mechanism] =
+      result;
   static_cast<void>(mechanism);  // a picture, which a result that was read does without
   archive(scenario, kind, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause,
-          causes, terms, words, windows, deviation, effort, timeseries, curves, events, asked);
+          causes, together, terms, words, windows, deviation, effort, timeseries, curves, events, asked);
 }
 
 }  // namespace ursula::python

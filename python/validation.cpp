@@ -216,6 +216,9 @@ void addResult(py::module_& module) {
           "The largest error of the efforts: a Deviation, None if no effort was compared.")
       .def_readonly("cause", &Result::cause, "The likely cause of wrong efforts: a Cause, None if no cause is certain.")
       .def_readonly("causes", &Result::causes, "Other causes that explain the deviation equally well: a list of Cause.")
+      .def_readonly("causes_together", &Result::causes_together,
+                    "Two or three mistakes that explain the deviation only together, the largest first: a list of "
+                    "Cause. `cause` is its first; the list is empty if one mistake does.")
       .def_property_readonly("terms", &termsOf,
                              "Relative errors of the solver's answers to motions with one term at a time.")
       .def_property_readonly("replay_error", &replayErrorOf,

@@ -16,11 +16,6 @@ namespace {
 
 /// A likely explanation of one part leaves less than this share of the residual.
 constexpr double may_remain = 0.01;
-/// An explanation leaves at most these multiples of the limits everywhere (one for the given torques, one for the
-/// cause's). The remainder must also be too small for chance.
-constexpr double may_be_beyond = 2, may_be_chance = 0.1;
-constexpr std::size_t most_named = 4;
-
 /// The instants at which any of some motors' torques exceeds its limit.
 struct Deviating {
   std::size_t count = 0, first = 0, last = 0, worst = 0;
@@ -103,59 +98,6 @@ TorqueResidual residualOf(const Scenario& scenario, const ExternalTorques& torqu
   return out;
 }
 
-std::string percent(double explained) {
-  if (explained > 1 - 1e-6) return "more than 99.9999 % of the deviation";
-  return fmt::format("{:.4f} % of the deviation", 100 * std::max(0.0, explained));
-}
-
-/// A small remainder of the deviation may still be all that was answered, where few digits make wide limits.
-bool explains(const Hypothesis& one) {
-  return one.beyond <= may_be_beyond && one.unexplained <= may_be_chance &&
-         (one.of_found <= may_be_chance || one.beyond <= 1);
-}
-
-/// Returns the best hypotheses: all that explain everything, otherwise all near the smallest remainder. Those with
-/// fewest fitted numbers come first, then the most plausible ones; a length comes after what has the same effect.
-/// Numbers that no body can have are left out beside others.
-std::vector<Hypothesis> bestOf(const std::vector<Hypothesis>& fitted) {
-  const auto least = std::min_element(fitted.begin(), fitted.end(), [](const Hypothesis& a, const Hypothesis& b) {
-    return a.unexplained < b.unexplained;
-  });
-  const bool any = std::any_of(fitted.begin(), fitted.end(), explains);
-  std::vector<Hypothesis> out;
-  for (const Hypothesis& one : fitted)
-    if (any ? explains(one) : one.unexplained <= 2 * least->unexplained + 1e-9) out.push_back(one);
-  const auto is_possible = [](const Hypothesis& one) { return one.is_possible; };
-  if (std::any_of(out.begin(), out.end(), is_possible))
-    out.erase(std::stable_partition(out.begin(), out.end(), is_possible), out.end());
-  const auto order = [](const Hypothesis& one) {
-    return std::pair(one.free_numbers, one.named && isLength(*one.named));
-  };
-  std::stable_sort(out.begin(), out.end(),
-                   [&](const Hypothesis& a, const Hypothesis& b) { return order(a) < order(b); });
-  while (out.back().free_numbers > std::max(1, out.front().free_numbers)) out.pop_back();
-  return out;
-}
-
-/// Whether both are one mistake in other words.
-bool isSameMistake(const Hypothesis& first, const Hypothesis& other) {
-  if (!first.named || !other.named || first.named->term.empty()) return false;
-  const NamedCause &a = *first.named, &b = *other.named;
-  return a.kind == b.kind && a.term == b.term && a.body == b.body && a.leg == b.leg && a.parameter == b.parameter;
-}
-
-std::string othersText(const std::vector<Hypothesis>& best) {
-  std::string out;
-  std::size_t count = 1;
-  for (std::size_t k = 1; k < best.size(); ++k) {
-    if (isSameMistake(best.front(), best[k])) continue;
-    if (count < most_named) out += (count == 1 ? "; as well explained by: " : "; ") + best[k].text;
-    ++count;
-  }
-  if (count > most_named) out += fmt::format("; and {} more", count - most_named);
-  return out;
-}
-
 /// Describes at most one deviating instant in twenty, as from a falsified row; else empty.
 std::string loneInstants(const ExternalTorques& torques) {
   const std::size_t rows = torques.file.rows();
@@ -207,17 +149,40 @@ Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torqu
   return out;
 }
 
-/// Share of the deviation: a cause that explains less is not mentioned.
-constexpr double worth_naming = 0.5;
+/// Shares of the deviation: a cause that explains less is not mentioned, as the best or after it.
+constexpr double worth_naming = 0.5, worth_ranking = 0.1;
 
-/// Describes the best with fewer numbers than motors, since one number for each motor explains a part of anything.
-/// Empty if it explains too little, as of noise.
-std::string bestOfFewNumbers(std::vector<Hypothesis> fitted) {
+/// Those with fewer numbers than motors, since one number for each motor explains a part of anything.
+std::vector<Hypothesis> ofFewNumbers(std::vector<Hypothesis> fitted) {
   fitted.erase(std::remove_if(fitted.begin(), fitted.end(),
                               [](const Hypothesis& one) { return one.free_numbers >= motor_count; }),
                fitted.end());
-  if (fitted.empty()) return "";
-  const Hypothesis first = bestOf(fitted).front();
+  return fitted;
+}
+
+/// The three that explain most, `first` before the others, with their shares.
+Explanation ranked(const std::vector<Hypothesis>& fitted, const Hypothesis& first, std::string text, CauseClaim claim) {
+  constexpr std::size_t most_ranked = 3;
+  std::vector<Hypothesis> all = ofFewNumbers(fitted), best = {first};
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.unexplained < b.unexplained; });
+  for (const Hypothesis& one : all) {
+    const auto isSame = [&one](const Hypothesis& other) { return one.text == other.text || isSameMistake(one, other); };
+    if (best.size() < most_ranked && one.explained() > worth_ranking && std::none_of(best.begin(), best.end(), isSame))
+      best.push_back(one);
+  }
+  Explanation out{std::move(text), {}, {}, claim};
+  for (const Hypothesis& one : best) {
+    if (one.text != first.text) out.text += fmt::format("; next, {}, {:.3g} %", one.text, 100 * one.explained());
+    if (!one.named) continue;
+    out.others.push_back(*one.named);
+    out.others.back().explained = 1 - one.unexplained * one.unexplained;
+  }
+  return out;
+}
+
+/// Describes the best with few numbers. Empty if it explains too little, as of noise.
+std::string bestText(const Hypothesis& first) {
   if (first.explained() < worth_naming || first.of_found > worth_naming) return "";
   if (first.unexplained >= may_remain)
     return fmt::format("{}, explains only {}", first.text, percent(first.explained()));
@@ -232,22 +197,25 @@ Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torqu
   const TorqueResidual data = residualOf(scenario, torques, asked);
   const std::vector<Hypothesis> fitted = fitHypotheses(scenario, data);
   if (fitted.empty()) return noCause("no simple explanation");
-  std::vector<Hypothesis> best = bestOf(fitted);
-  putNarrowerFirst(best);
+  const std::vector<Hypothesis> best = bestOf(fitted);
   const Hypothesis& first = best.front();
   const std::string how_much = fmt::format("{}, which explains {}", first.text, percent(first.explained()));
   if (explains(first)) return named(best, data, how_much + othersText(best));
+  if (const Explanation several = severalMistakes(scenario, data, first.beyond); !several.text.empty()) return several;
   if (std::max(first.unexplained, first.of_found) < may_remain)
-    return {fmt::format("a likely part: {}; what remains is up to {:.3g} times the limit of rounding and digits{}",
-                        how_much, first.beyond, othersText(best)),
-            {},
-            {},
-            CauseClaim::part};
+    return ranked(
+        fitted, first,
+        fmt::format("a likely part: {}; what remains is up to {:.3g} times the limit of rounding and digits{}",
+                    how_much, first.beyond, othersText(best)),
+        CauseClaim::part);
   if (const Explanation interval = intervalAlone(scenario, torques, data); !interval.text.empty()) return interval;
   if (const std::string alone = loneInstants(torques); !alone.empty())
     return noCause("no simple explanation: " + alone);
-  if (const std::string some = bestOfFewNumbers(fitted); !some.empty())
-    return noCause("no simple explanation; the best, " + some);
+  if (const std::vector<Hypothesis> few = ofFewNumbers(fitted); !few.empty()) {
+    const Hypothesis most = bestOf(few).front();
+    if (const std::string some = bestText(most); !some.empty())
+      return ranked(few, most, "no simple explanation; the best, " + some, CauseClaim::none);
+  }
   return noCause(isNoise(data.alongMotion()) ? "no pattern from one instant to the next, as of noise or too few digits"
                                              : "no simple explanation");
 }
@@ -272,6 +240,7 @@ Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques, con
   out.claim = explanation.claim;
   out.named = std::move(explanation.named);
   out.others = std::move(explanation.others);
+  out.together = std::move(explanation.together);
   out.terms = asked.terms;
   for (TermError& term : out.terms)
     if (term.term == repeat_term) term.error = std::max(term.error, alone.change);
@@ -283,6 +252,7 @@ void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result) {
   result.cause_words = {diagnosis.deviation, diagnosis.cause, diagnosis.claim};
   result.cause = diagnosis.named;
   result.causes = diagnosis.others;
+  result.causes_together = diagnosis.together;
   result.terms = diagnosis.terms;
   nameState(result);
   result.findings.push_back({"torques that are off", diagnosis.deviation});

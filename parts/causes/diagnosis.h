@@ -20,7 +20,8 @@ struct Diagnosis {
   std::optional<NamedCause> named = {};  ///< the cause; nullopt unless exactly one explains everything
   std::vector<NamedCause> others =
       {};  ///< causes that explain the deviation equally well; all of them if `named` is empty
-  std::vector<TermError> terms = {};  ///< of a solver that answered separate questions
+  std::vector<NamedCause> together = {};  ///< two or three that explain it together; `named` is the first
+  std::vector<TermError> terms = {};      ///< of a solver that answered separate questions
 };
 
 /// Only for torques that exceed their limits somewhere; for exact ones everything is empty. A cause must also explain

@@ -11,10 +11,18 @@
 namespace ursula {
 namespace {
 
+constexpr std::size_t most_named = 4;
+
 /// Whether the motion is one pose, held or repeated: too many causes can produce its six numbers.
 bool isOnePose(const TorqueResidual& data) {
   return std::all_of(data.motions.begin(), data.motions.end(),
                      [&](const Motion<double>& each) { return sameState(each, data.motions.front()); });
+}
+
+/// Whether a cause is the length of a link.
+bool isLength(const NamedCause& cause) {
+  const std::string_view end = ".length", path = cause.parameter;
+  return path.size() > end.size() && path.substr(path.size() - end.size()) == end;
 }
 
 /// Gravity's size and its component are one number. A missing term or a wrong sign is also a number that is 0 or
@@ -66,11 +74,6 @@ void clearSharedBody(const std::vector<Hypothesis>& best, NamedCause& named) {
 
 }  // namespace
 
-bool isLength(const NamedCause& cause) {
-  const std::string_view end = ".length", path = cause.parameter;
-  return path.size() > end.size() && path.substr(path.size() - end.size()) == end;
-}
-
 void putNarrowerFirst(std::vector<Hypothesis>& best) {
   const std::optional<NamedCause> named = best.front().named;
   if (!named || named->kind != CauseKind::reference_point || named->body != "legs") return;
@@ -79,6 +82,55 @@ void putNarrowerFirst(std::vector<Hypothesis>& best) {
            (one.named->body == "proximal" || one.named->body == "distal");
   });
   if (narrower != best.end()) std::rotate(best.begin(), narrower, narrower + 1);
+}
+
+std::string percent(double explained) {
+  if (explained > 1 - 1e-6) return "more than 99.9999 % of the deviation";
+  return fmt::format("{:.4f} % of the deviation", 100 * std::max(0.0, explained));
+}
+
+bool explains(const Hypothesis& one) {
+  return one.beyond <= may_be_beyond && one.unexplained <= may_be_chance &&
+         (one.of_found <= may_be_chance || one.beyond <= 1);
+}
+
+std::vector<Hypothesis> bestOf(const std::vector<Hypothesis>& fitted) {
+  const auto least = std::min_element(fitted.begin(), fitted.end(), [](const Hypothesis& a, const Hypothesis& b) {
+    return a.unexplained < b.unexplained;
+  });
+  const bool any = std::any_of(fitted.begin(), fitted.end(), explains);
+  std::vector<Hypothesis> out;
+  for (const Hypothesis& one : fitted)
+    if (any ? explains(one) : one.unexplained <= 2 * least->unexplained + 1e-9) out.push_back(one);
+  const auto is_possible = [](const Hypothesis& one) { return one.is_possible; };
+  if (std::any_of(out.begin(), out.end(), is_possible))
+    out.erase(std::stable_partition(out.begin(), out.end(), is_possible), out.end());
+  const auto order = [](const Hypothesis& one) {
+    return std::pair(one.free_numbers, one.named && isLength(*one.named));
+  };
+  std::stable_sort(out.begin(), out.end(),
+                   [&](const Hypothesis& a, const Hypothesis& b) { return order(a) < order(b); });
+  while (out.back().free_numbers > std::max(1, out.front().free_numbers)) out.pop_back();
+  putNarrowerFirst(out);
+  return out;
+}
+
+bool isSameMistake(const Hypothesis& first, const Hypothesis& other) {
+  if (!first.named || !other.named || first.named->term.empty()) return false;
+  const NamedCause &a = *first.named, &b = *other.named;
+  return a.kind == b.kind && a.term == b.term && a.body == b.body && a.leg == b.leg && a.parameter == b.parameter;
+}
+
+std::string othersText(const std::vector<Hypothesis>& best) {
+  std::string out;
+  std::size_t count = 1;
+  for (std::size_t k = 1; k < best.size(); ++k) {
+    if (isSameMistake(best.front(), best[k])) continue;
+    if (count < most_named) out += (count == 1 ? "; as well explained by: " : "; ") + best[k].text;
+    ++count;
+  }
+  if (count > most_named) out += fmt::format("; and {} more", count - most_named);
+  return out;
 }
 
 Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& data, std::string text) {
@@ -127,6 +179,7 @@ void nameState(ValidationResult& result) {
   if (repeat == result.terms.end() || !(repeat->error > 1e-12)) return;
   if (result.cause) result.causes.insert(result.causes.begin(), *result.cause);
   result.cause = NamedCause{CauseKind::state, "", "all"};
+  result.causes_together.clear();
   result.cause_words.claim = CauseClaim::likely;
   result.cause_words.cause = fmt::format(
       "the solver answers the same question otherwise when it is asked again, by {:.2g} of the efforts; else: {}",

@@ -289,9 +289,7 @@ std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResi
     if (term.fixed) add(scaledTerm(data, term));
   if (data.exact.size() >= 3) add(softLoops(scenario, data));
   TriedCauses tried{scenario};
-  for (const auto add_group : {addMachineCauses, addMotionCauses, addTermCauses, addJointCauses, addSlidingCauses,
-                               addJacobianCauses, addLoopCauses})
-    add_group(tried);
+  addEveryCause(tried);
   if (data.commanded == data.motions.size())  // and the solver was not asked at other instants
     addDifferenceCauses(data.instants, tried);
   for (const Hypothesis& fitted : fitCauses(tried.causes, data)) add(fitted);

@@ -2,6 +2,7 @@
 
 #include "nocsolver/errors.h"
 #include "parts/causes/fits.h"
+#include "parts/causes/tried_causes.h"
 #include "parts/wrong_formulas/wrong_noc.h"
 #include "validation/subject/subject.h"
 
@@ -9,9 +10,6 @@ namespace ursula {
 namespace {
 
 using MotionChange = void (*)(Motion<double>&);
-
-/// The efforts of a motion without the term; `right` are those with it.
-using Without = std::function<Vector6d(const Motion<double>&, const Vector6d& right)>;
 
 struct WrongFormula {
   FormulaError formula_error;
@@ -68,19 +66,21 @@ void withoutFriction(ManipulatorParameters& machine) {
   }
 }
 
-Without by(const Subject& subject) {
-  return [subject](const Motion<double>& motion, const Vector6d& /*right*/) { return subject.torques(motion); };
-}
+/// A term, and the efforts of a solver without it.
+struct TermRow {
+  TorqueTerm term;
+  std::function<EffortsOf(const Scenario&)> without;
+};
 
 /// Without τ(from) − τ(to) of two changed motions.
-Without withoutChange(const Scenario& scenario, MotionChange from, MotionChange to) {
-  return
-      [noc = nocSubject(*scenario.manipulator, scenario.load), from, to](Motion<double> motion, const Vector6d& right) {
-        Motion<double> other = motion;
-        from(motion);
-        to(other);
-        return Vector6d(right - (noc.torques(motion) - noc.torques(other)));
-      };
+EffortsOf withoutChange(const Scenario& scenario, MotionChange from, MotionChange to) {
+  return [noc = nocSubject(*scenario.manipulator, scenario.load), from, to](Motion<double> motion) {
+    Motion<double> other = motion;
+    const Vector6d right = noc.torques(motion);
+    from(motion);
+    to(other);
+    return Vector6d(right - (noc.torques(motion) - noc.torques(other)));
+  };
 }
 
 /// Whether the paper's formulas, with their numbers, are those of a leg.
@@ -90,35 +90,24 @@ bool hasPaperLegs(const Manipulator& machine) {
   return false;
 }
 
-}  // namespace
-
-std::vector<TorqueTerm> torqueTerms(const Scenario& scenario, const std::vector<Motion<double>>& motions,
-                                    const std::vector<Vector6d>& exact) {
-  std::vector<TorqueTerm> out;
-  const auto add = [&](TorqueTerm term, const std::function<Without()>& solver) {
-    try {
-      const Without without = solver();
-      const double sign = term.fixed ? -1 : 1;  // what a printed formula adds
-      for (std::size_t k = 0; k < exact.size(); ++k)
-        term.torques.emplace_back(sign * (exact[k] - without(motions[k], exact[k])));
-      out.push_back(std::move(term));
-    } catch (const PoseError&) {
-    } catch (const std::invalid_argument&) {
-    }
+std::vector<TermRow> termsOf(const Scenario& scenario) {
+  std::vector<TermRow> out;
+  const auto add = [&out](const TorqueTerm& term, const std::function<EffortsOf(const Scenario&)>& without) {
+    out.push_back({term, without});
   };
-  const auto machine = [&scenario](void (*change)(ManipulatorParameters&)) {
-    return [&scenario, change] {
-      ManipulatorParameters changed = scenario.manipulator->parameters();
+  const auto machine = [](void (*change)(ManipulatorParameters&)) {
+    return [change](const Scenario& of) {
+      ManipulatorParameters changed = of.manipulator->parameters();
       change(changed);
-      return by(nocSubject(Manipulator(changed), scenario.load));
+      return nocSubject(Manipulator(changed), of.load).torques;
     };
   };
-  const auto motion = [&scenario](MotionChange from, MotionChange to) {
-    return [&scenario, from, to] { return withoutChange(scenario, from, to); };
+  const auto motion = [](MotionChange from, MotionChange to) {
+    return [from, to](const Scenario& of) { return withoutChange(of, from, to); };
   };
-  const auto formula = [&scenario](const WrongFormula& wrong) {
-    return [&] {
-      return by(wrongNocSubject(*scenario.manipulator, scenario.load, WithFormulaErrors(wrong.formula_error)));
+  const auto formula = [](const WrongFormula& wrong) {
+    return [error = wrong.formula_error](const Scenario& of) {
+      return wrongNocSubject(*of.manipulator, of.load, WithFormulaErrors(error)).torques;
     };
   };
   add({"gravity", "gravity", "all", {}, scenario.manipulator->gravity().norm()}, machine(withoutGravity));
@@ -127,11 +116,60 @@ std::vector<TorqueTerm> torqueTerms(const Scenario& scenario, const std::vector<
   add({"the torques of velocity (Coriolis, centrifugal, gyroscopic, friction)"}, motion(doNotAccelerate, rest));
   add({"friction", "friction", "all"}, machine(withoutFriction));
   if (scenario.load)
-    add({"the load", "load", "platform"}, [&] { return by(nocSubject(*scenario.manipulator, nullptr)); });
+    add({"the load", "load", "platform"},
+        [](const Scenario& of) { return nocSubject(*of.manipulator, nullptr).torques; });
   for (const WrongFormula& part : parts) add({part.name, part.term, part.body}, formula(part));
   if (hasPaperLegs(*scenario.manipulator))
     for (const WrongFormula& wrong : printed) add({wrong.name, "", "", 1.0}, formula(wrong));
   return out;
+}
+
+/// 1 + x times a term.
+void addScaled(const TermRow& row, TriedCauses& out) {
+  Cause cause;
+  cause.solver = [without = row.without](const Scenario& of, double x) {
+    return [right = nocSubject(*of.manipulator, of.load), other = without(of), x](const Motion<double>& motion) {
+      const Vector6d efforts = right.torques(motion);
+      return Vector6d(efforts + x * (efforts - other(motion)));
+    };
+  };
+  cause.named = [term = row.term](double x, double) {
+    return NamedCause{CauseKind::scale, term.term, term.body, "", "", 1, 1 + x};
+  };
+  out.push(cause);
+}
+
+}  // namespace
+
+std::vector<TorqueTerm> torqueTerms(const Scenario& scenario, const std::vector<Motion<double>>& motions,
+                                    const std::vector<Vector6d>& exact) {
+  std::vector<TorqueTerm> out;
+  for (TermRow& row : termsOf(scenario)) {
+    try {
+      const EffortsOf without = row.without(scenario);
+      const double sign = row.term.fixed ? -1 : 1;  // what a printed formula adds
+      for (std::size_t k = 0; k < exact.size(); ++k)
+        row.term.torques.emplace_back(sign * (exact[k] - without(motions[k])));
+      out.push_back(std::move(row.term));
+    } catch (const PoseError&) {
+    } catch (const std::invalid_argument&) {
+    }
+  }
+  return out;
+}
+
+void addTerms(TriedCauses& out) {
+  for (const TermRow& row : termsOf(out.scenario)) {
+    if (row.term.term.empty()) continue;
+    if (row.term.gravity > 0) addScaled(row, out);
+    out.add({row.term.name + " left out", {CauseKind::missing_term, row.term.term, row.term.body}}, row.without);
+    out.add({row.term.name + " with the wrong sign", {CauseKind::sign, row.term.term, row.term.body}},
+            [without = row.without](const Scenario& of) {
+              return [right = nocSubject(*of.manipulator, of.load), wrong = without(of)](const Motion<double>& motion) {
+                return Vector6d(2 * wrong(motion) - right.torques(motion));
+              };
+            });
+  }
 }
 
 }  // namespace ursula

@@ -131,8 +131,9 @@ void addPoints(TriedCauses& out) {
 
 /// The efforts with the platform's points b not turned in the velocities of the legs' tips, perhaps in their
 /// accelerations and in the Jacobian.
-Vector6d withPointsNotTurned(const Scenario& scenario, bool accelerations, bool jacobian, const Motion<double>& at) {
-  MachineTerms machine = machineTerms(*scenario.manipulator, scenario.load, at);
+Vector6d withPointsNotTurned(const Manipulator& whole, const std::shared_ptr<const Load>& load, bool accelerations,
+                             bool jacobian, const Motion<double>& at) {
+  MachineTerms machine = machineTerms(whole, load, at);
   const Arm fixed = [](const OpenLeg& leg) { return leg.numbers.platform_point; };
   for (std::size_t i = 0; i < machine.legs.size(); ++i) {
     OpenLeg& leg = machine.legs[i];
@@ -142,7 +143,7 @@ Vector6d withPointsNotTurned(const Scenario& scenario, bool accelerations, bool 
     tip.omega_dot.setZero();
     tip.p_dot = at.p_dot + at.omega.cross(fixed(leg));
     tip.p_ddot = at.p_ddot + at.omega_dot.cross(b) + at.omega.cross(at.omega.cross(b));
-    leg.efforts = machineTerms(*scenario.manipulator, scenario.load, tip).legs[i].efforts;
+    leg.efforts = machineTerms(whole, load, tip).legs[i].efforts;
   }
   if (jacobian) return jacobianOf(machine, fixed).transpose().lu().solve(forceAtP(machine, fixed));
   return machine.T_P.transpose() * machine.forceAtP();
@@ -155,9 +156,9 @@ void addPointsNotTurned(TriedCauses& out) {
           {std::string("the platform's points not turned into the base's frame in the velocities of the legs' tips") +
                (accelerations ? ", in their accelerations" : "") + (jacobian ? ", and in the Jacobian" : ""),
            jacobian ? wrong_jacobian : NamedCause{CauseKind::frame, "orientation", "all"}},
-          [&scenario = out.scenario, accelerations, jacobian] {
-            return [&scenario, accelerations, jacobian](const Motion<double>& motion) {
-              return withPointsNotTurned(scenario, accelerations, jacobian, motion);
+          [accelerations, jacobian](const Scenario& of) {
+            return [whole = of.manipulator, load = of.load, accelerations, jacobian](const Motion<double>& motion) {
+              return withPointsNotTurned(*whole, load, accelerations, jacobian, motion);
             };
           });
 }

@@ -91,10 +91,10 @@ void addLegJacobians(TriedCauses& out) {
 /// (A Aᵀ + x 1)⁻¹ A for the inverse of Aᵀ = T_P⁻ᵀ.
 void addDamped(TriedCauses& out) {
   Cause cause;
-  cause.solver = [&scenario = out.scenario](double x) {
-    const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
-    return [&scenario, noc, x](const Motion<double>& motion) {
-      const Matrix6d A = machineTerms(*scenario.manipulator, scenario.load, motion).T_P.inverse();
+  cause.solver = [](const Scenario& of, double x) {
+    const Subject noc = nocSubject(*of.manipulator, of.load);
+    return [machine = of.manipulator, load = of.load, noc, x](const Motion<double>& motion) {
+      const Matrix6d A = machineTerms(*machine, load, motion).T_P.inverse();
       const Matrix6d damping = A * A.transpose() + x * Matrix6d::Identity();
       const Vector6d right = noc.torques(motion);
       return Vector6d(right - x * damping.ldlt().solve(right));
@@ -108,7 +108,7 @@ void addDamped(TriedCauses& out) {
     if (!(x > 0)) return std::nullopt;
     return NamedCause{CauseKind::jacobian, "", "all"};
   };
-  out.causes.push_back(cause);
+  out.push(cause);
 }
 
 /// How a solver takes a distal link's rates relative to the proximal link.

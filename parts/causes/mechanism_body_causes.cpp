@@ -10,6 +10,7 @@ struct BodyView {
   Matrix3d R, own, I;  ///< from the reference pose; of the body's own axes; the tensor
   double mass;
   Vector3d omega, alpha, a, g;
+  Vector3d arm;                 ///< to its mass centre from where the motion is known, which is another machine's
   Vector3d alpha_bias, a_bias;  ///< what the motors' accelerations do not make
   Matrix3d at_reference;        ///< the tensor in the reference pose
   Vector3d from_origin;         ///< from the body's own origin to its mass centre
@@ -27,11 +28,13 @@ BodyView viewOf(const Mechanism& mechanism, const Instant& at, std::size_t b) {
   out.mass = body.mass;
   out.omega = state.twist.head<3>();
   out.alpha = state.twist_rate.head<3>();
-  out.a = state.twist_rate.tail<3>();
+  const PointState center = pointOf(state, body.center_of_mass);
+  out.a = center.a;
+  out.arm = center.x - state.center;
   out.g = body.weightless ? Vector3d(Vector3d::Zero()) : mechanism.gravity();
   const Vector6d bias = at.biasOf(b);
   out.alpha_bias = bias.head<3>();
-  out.a_bias = bias.tail<3>();
+  out.a_bias = bias.tail<3>() + out.alpha_bias.cross(out.arm) + out.omega.cross(out.omega.cross(out.arm));
   out.at_reference = body.inertia;
   out.from_origin = out.R * (body.center_of_mass - body.frame.translation());
   return out;
@@ -117,8 +120,12 @@ const BodyTerm mistakes[] = {
 };
 
 VectorXd effortsOf(const EffortResidual& data, std::size_t b, Vector6d (*of)(const BodyView&)) {
-  return data.each(
-      [&](const Instant& at) -> VectorXd { return at.work.T[b].transpose() * of(viewOf(*data.mechanism, at, b)); });
+  return data.each([&](const Instant& at) -> VectorXd {
+    const BodyView view = viewOf(*data.mechanism, at, b);
+    Vector6d w = of(view);
+    w.head<3>() += view.arm.cross(Vector3d(w.tail<3>()));
+    return at.work.T[b].transpose() * w;
+  });
 }
 
 std::vector<std::size_t> heavyBodies(const Mechanism& mechanism) {
@@ -134,15 +141,19 @@ Vector6d rightMoment(const BodyView& b) { return momentOf(b.I, b.omega, b.alpha)
 
 }  // namespace
 
-void addScaledTerm(const NamedCause& term, const VectorXd& part, const std::string& detail, std::vector<Tried>& out) {
-  addFixed(out, term, -part, detail);
+void addScaledTerm(const NamedCause& term, const ChangeOf& part, const std::string& detail, std::vector<Tried>& out) {
+  const auto times = [part](double factor) {
+    return [part, factor](const EffortResidual& data) { return VectorXd(factor * part(data)); };
+  };
+  addFixed(out, term, times(-1), detail);
   NamedCause sign = term, scale = term;
   sign.kind = CauseKind::sign;
-  addFixed(out, sign, -2 * part, detail);
+  addFixed(out, sign, times(-2), detail);
   if (term.term == "gravity") return;  // gravity has a number of its own
   scale.kind = CauseKind::scale;
   scale.expected = 1;
-  Tried fitted{scale, [part](const VectorXd& x) { return VectorXd(x(0) * part); }, VectorXd::Ones(1)};
+  Tried fitted{scale, [part](const EffortResidual& data, const VectorXd& x) { return VectorXd(x(0) * part(data)); },
+               VectorXd::Ones(1)};
   fitted.detail = detail;
   fitted.finish = [](const VectorXd& x, const VectorXd& uncertainty, NamedCause& named) {
     named.found = 1 + x(0);
@@ -158,21 +169,25 @@ void addScaledTerm(const NamedCause& term, const VectorXd& part, const std::stri
 void addBodyCauses(const EffortResidual& data, std::vector<Tried>& out) {
   const std::vector<std::size_t> bodies = heavyBodies(*data.mechanism);
   const auto addAll = [&](const BodyTerm& term, bool is_mistake) {
-    VectorXd sum = VectorXd::Zero(data.noc.size());
-    std::vector<VectorXd> parts;
-    for (const std::size_t b : bodies) {
-      parts.push_back(effortsOf(data, b, term.of));
-      if (is_mistake) parts.back() -= effortsOf(data, b, rightMoment);
-      sum += parts.back();
-    }
+    const auto partOf = [of = term.of, is_mistake](const std::vector<std::size_t>& some, double factor) {
+      return [some, of, is_mistake, factor](const EffortResidual& at) {
+        VectorXd sum = VectorXd::Zero(at.noc.size());
+        for (const std::size_t b : some) {
+          sum += factor * effortsOf(at, b, of);
+          if (is_mistake) sum -= factor * effortsOf(at, b, rightMoment);
+        }
+        return sum;
+      };
+    };
     NamedCause named{term.kind, term.term, "all"};
     if (is_mistake)
-      addFixed(out, named, sum, term.detail);
+      addFixed(out, named, partOf(bodies, 1), term.detail);
     else
-      addScaledTerm(named, sum, term.detail, out);
-    for (std::size_t i = 0; i < bodies.size() && bodies.size() > 1; ++i) {
-      named.body = data.mechanism->bodies()[bodies[i]].name;
-      addFixed(out, named, is_mistake ? parts[i] : VectorXd(-parts[i]), term.detail);
+      addScaledTerm(named, partOf(bodies, 1), term.detail, out);
+    for (const std::size_t b : bodies) {
+      if (bodies.size() == 1) break;
+      named.body = data.mechanism->bodies()[b].name;
+      addFixed(out, named, partOf({b}, is_mistake ? 1 : -1), term.detail);
     }
   };
   for (const BodyTerm& term : terms) addAll(term, false);

@@ -41,10 +41,19 @@ Tried triedNumbers(const EffortResidual& data, std::size_t b, const Change& chan
   Tried out;
   const BodyNumbers right = numbersOf(data.mechanism->bodies()[b]);
   const VectorXd before = data.each([&](const Instant& at) { return effortsWith(*data.mechanism, at, b, right); });
-  out.change = [&data, b, change, right, before](const VectorXd& x) -> VectorXd {
+  out.change = [b, change, right, before](const EffortResidual& of, const VectorXd& x) -> VectorXd {
     BodyNumbers wrong = right;
     change(x, wrong);
-    return data.each([&](const Instant& at) { return effortsWith(*data.mechanism, at, b, wrong); }) - before;
+    return of.each([&](const Instant& at) { return effortsWith(*of.mechanism, at, b, wrong); }) - before;
+  };
+  out.machine = [b, change](MechanismParameters& machine, const VectorXd& x) {
+    MechanismBody& body = machine.bodies[b];
+    BodyNumbers numbers = numbersOf(body);
+    change(x, numbers);
+    const Matrix3d& F = body.frame.linear();
+    body.mass = numbers.mass;
+    body.center_of_mass = body.frame * numbers.center;
+    body.inertia = F * numbers.inertia * F.transpose();
   };
   out.steps = steps;
   out.named = {CauseKind::parameter, "", data.mechanism->bodies()[b].name};
@@ -143,8 +152,9 @@ void addDensity(const EffortResidual& data, std::size_t b, std::vector<Tried>& o
 void addNoCenter(const EffortResidual& data, std::size_t b, std::vector<Tried>& out) {
   const Tried tried = triedNumbers(
       data, b, [](const VectorXd&, BodyNumbers& numbers) { numbers.center.setZero(); }, VectorXd());
-  addFixed(out, {CauseKind::reference_point, "", tried.named.body}, tried.change(VectorXd()),
+  addFixed(out, {CauseKind::reference_point, "", tried.named.body}, tried.change(data, VectorXd()),
            "the mass centre at the body's origin");
+  out.back().machine = tried.machine;
 }
 
 void addGravity(const EffortResidual& data, std::vector<Tried>& out) {
@@ -158,10 +168,12 @@ void addGravity(const EffortResidual& data, std::vector<Tried>& out) {
         if (!mechanism.bodies()[b].weightless) sum -= mechanism.bodies()[b].mass * at.work.T[b].row(3 + k).transpose();
       return sum;
     });
-  const auto add = [&](const std::string& key, const MatrixXd& of, double expected) {
+  const auto add = [&](const std::string& key, const MatrixXd& ways, double expected) {
+    const MatrixXd of = columns * ways;
     Tried tried{{CauseKind::parameter, "gravity", "all", key, "m/s^2", expected},
-                [of](const VectorXd& x) { return VectorXd(of * x); },
+                [of](const EffortResidual&, const VectorXd& x) { return VectorXd(of * x); },
                 VectorXd::Ones(of.cols())};
+    tried.machine = [ways](MechanismParameters& machine, const VectorXd& x) { machine.gravity += ways * x; };
     if (of.cols() > 1) tried.named.expected.reset();
     tried.finish = [expected](const VectorXd& x, const VectorXd& uncertainty, NamedCause& named) {
       if (x.size() > 1) return true;
@@ -171,14 +183,24 @@ void addGravity(const EffortResidual& data, std::vector<Tried>& out) {
     };
     out.push_back(tried);
   };
-  if (right.norm() > 0) add("mechanism.gravity", columns * right.normalized(), right.norm());
+  if (right.norm() > 0) add("mechanism.gravity", right.normalized(), right.norm());
   for (int k = 0; k < 3; ++k)
     if (std::abs(right(k)) < 0.999999 * right.norm() || right.norm() == 0)
-      add(fmt::format("mechanism.gravity.{}", k), columns.col(k), right(k));
-  add("mechanism.gravity", columns, 0);
+      add(fmt::format("mechanism.gravity.{}", k), Vector3d::Unit(k), right(k));
+  add("mechanism.gravity", Matrix3d::Identity(), 0);
 }
 
 }  // namespace
+
+VectorXd effortsOf(const Mechanism& mechanism, const Instant& at) {
+  const VectorXd loads = loadsOf(mechanism, at);
+  VectorXd out = VectorXd::Zero(static_cast<Eigen::Index>(mechanism.motorCount()));
+  for (std::size_t b = 0; b < mechanism.bodies().size(); ++b)
+    out += effortsWith(mechanism, at, b, numbersOf(mechanism.bodies()[b]));
+  for (std::size_t c = 0; c < at.coordinates.size(); ++c)
+    out += at.coordinates[c].row.transpose() * loads(static_cast<Eigen::Index>(c));
+  return out;
+}
 
 void addBodyNumbers(const EffortResidual& data, std::vector<Tried>& out) {
   const Mechanism& mechanism = *data.mechanism;

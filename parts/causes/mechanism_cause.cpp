@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "parts/causes/mechanism_tried.h"
 #include "validation/mechanism/validate_mechanism.h"
@@ -14,8 +15,8 @@ namespace {
 /// cause's), and less than chance would. Another one that leaves little more is as good.
 constexpr double may_be_beyond = 2, may_be_chance = 0.1, as_good = 6;
 /// A likely explanation of one part leaves less than this share of the deviation; one that is listed leaves less.
-constexpr double may_remain = 0.01, worth_listing = 0.3;
-constexpr std::size_t most_instants = 300, most_listed = 4, least_instants = 4;
+constexpr double may_remain = 0.01, worth_listing = 0.9;
+constexpr std::size_t most_instants = 300, most_listed = 4, most_ranked = 3, least_instants = 4;
 
 EffortResidual residualOf(const MechanismEvidence& evidence) {
   EffortResidual out;
@@ -52,17 +53,6 @@ bool isAtRest(const EffortResidual& data) {
   return std::all_of(data.instants.begin(), data.instants.end(), [&](const Instant& each) {
     return each.motion.q == first.motion.q && each.motion.qddot == first.motion.qddot;
   });
-}
-
-std::vector<Fitted> fittedCauses(const EffortResidual& data) {
-  std::vector<Tried> tried;
-  for (const auto add :
-       {addEffortCauses, addClosureCauses, addJointTerms, addBodyCauses, addJointNumbers, addBodyNumbers})
-    add(data, tried);
-  std::vector<Fitted> out = fitAll(tried, data);
-  addDelay(data, out);
-  std::stable_sort(out.begin(), out.end(), [](const Fitted& a, const Fitted& b) { return a.numbers < b.numbers; });
-  return out;
 }
 
 bool explainsAll(const Fitted& one, double beyond = may_be_beyond) {
@@ -124,39 +114,6 @@ std::string othersIn(const std::vector<const Fitted*>& others) {
     out += (i == 0 ? "; as well explained by: " : "; ") + inWords(*others[i]);
   if (others.size() > most_listed) out += fmt::format("; and {} more", others.size() - most_listed);
   return out;
-}
-
-/// Names the cause that explains everything, or lists those that do; false if none does.
-bool nameAll(const std::vector<Fitted>& fitted, ValidationResult& result) {
-  const auto found = std::find_if(fitted.begin(), fitted.end(), [](const Fitted& one) { return explainsAll(one); });
-  if (found == fitted.end()) return false;
-  Fitted first = *found;
-  std::vector<const Fitted*> others;
-  for (const Fitted& one : fitted) {
-    if (&one == &*found || one.numbers > first.numbers || !explainsAll(one, as_good)) continue;
-    if (isRarer(first.named, one.named)) continue;
-    if (areOneVector(first.named, one.named)) {
-      first.named.parameter = vectorOf(first.named);
-      first.named.expected = first.named.found = first.named.uncertainty = std::nullopt;
-      continue;
-    }
-    if (!areOneMistake(first.named, one.named)) {
-      others.push_back(&one);
-      continue;
-    }
-    if (one.named.body != first.named.body) first.named.body.clear();
-    if (one.named.joint != first.named.joint && one.named.body != "all") first.named.joint.clear();
-    if (one.detail != first.detail) first.detail.clear();
-  }
-  result.cause_words.claim = CauseClaim::likely;
-  result.cause_words.cause = fmt::format("{}, which explains {}{}", inWords(first), percentOf(first), othersIn(others));
-  if (others.empty()) {
-    result.cause = withShare(first);
-    return true;
-  }
-  result.causes.push_back(withShare(first));
-  for (const Fitted* one : others) result.causes.push_back(withShare(*one));
-  return true;
 }
 
 /// Whether every value is one of few digits, and the right efforts are near enough to it.
@@ -232,17 +189,24 @@ void listParts(std::vector<Fitted> fitted, const EffortResidual& data, Validatio
   result.cause_words.claim = CauseClaim::none;
   result.cause_words.cause = "no simple explanation";
   if (fitted.empty()) return;
-  for (std::size_t i = 0; i < fitted.size() && i < most_listed; ++i) result.causes.push_back(withShare(fitted[i]));
   const Fitted& first = fitted.front();
   if (first.unexplained > may_remain) {
     result.cause_words.cause += fmt::format("; the best, {}, explains only {}", inWords(first), percentOf(first));
-    return;
+  } else {
+    result.cause_words.claim = CauseClaim::part;
+    result.cause_words.cause = fmt::format(
+        "a likely part: {}, which explains {}; what remains is up to {:.3g} times the limit of rounding and "
+        "digits",
+        inWords(first), percentOf(first), first.beyond);
   }
-  result.cause_words.claim = CauseClaim::part;
-  result.cause_words.cause = fmt::format(
-      "a likely part: {}, which explains {}; what remains is up to {:.3g} times the limit of rounding and "
-      "digits",
-      inWords(first), percentOf(first), first.beyond);
+  for (const Fitted& one : std::as_const(fitted)) {
+    const auto isSame = [&](const Fitted& other) { return inWords(other) == inWords(one); };
+    if (result.causes.size() == most_ranked || std::any_of(std::as_const(fitted).data(), &one, isSame)) continue;
+    result.causes.push_back(withShare(one));
+    if (&one != &first)
+      result.cause_words.cause +=
+          fmt::format("; next, {}, {:.3g} %", inWords(one), 100 * result.causes.back().explained);
+  }
 }
 
 /// "motor 1 by up to 0.2 N m at t = 0.3 s"; empty if every motor is within its limits.
@@ -265,6 +229,50 @@ std::string deviationIn(const EffortResidual& data) {
 }
 
 }  // namespace
+
+std::vector<Fitted> fittedCauses(const EffortResidual& data) {
+  std::vector<Tried> tried;
+  for (const auto add :
+       {addEffortCauses, addClosureCauses, addJointTerms, addBodyCauses, addJointNumbers, addBodyNumbers})
+    add(data, tried);
+  std::vector<Fitted> out = fitAll(tried, data);
+  addDelay(data, out);
+  std::stable_sort(out.begin(), out.end(), [](const Fitted& a, const Fitted& b) { return a.numbers < b.numbers; });
+  return out;
+}
+
+bool nameAll(const std::vector<Fitted>& fitted, ValidationResult& result) {
+  const auto found = std::find_if(fitted.begin(), fitted.end(), [](const Fitted& one) { return explainsAll(one); });
+  if (found == fitted.end()) return false;
+  Fitted first = *found;
+  std::vector<const Fitted*> others;
+  for (const Fitted& one : fitted) {
+    if (&one == &*found || one.numbers > first.numbers || !explainsAll(one, as_good)) continue;
+    if (isRarer(first.named, one.named)) continue;
+    if (areOneVector(first.named, one.named)) {
+      first.named.parameter = vectorOf(first.named);
+      first.named.expected = first.named.found = first.named.uncertainty = std::nullopt;
+      continue;
+    }
+    if (!areOneMistake(first.named, one.named)) {
+      others.push_back(&one);
+      continue;
+    }
+    if (one.named.body != first.named.body) first.named.body.clear();
+    if (one.named.joint != first.named.joint && one.named.body != "all") first.named.joint.clear();
+    if (one.detail != first.detail) first.detail.clear();
+  }
+  result.cause_words.claim = CauseClaim::likely;
+  result.cause_words.cause = fmt::format("{}, which explains {}{}", inWords(first), percentOf(first), othersIn(others));
+  if (others.empty()) {
+    result.cause = withShare(first);
+    return true;
+  }
+  result.causes.push_back(withShare(first));
+  for (const Fitted* one : others) result.causes.push_back(withShare(*one));
+  return true;
+}
+
 }  // namespace mechanisms
 
 AddMechanismCause addMechanismCause;
@@ -278,7 +286,11 @@ void addMechanismCause(const MechanismScenario&, const MechanismEvidence& eviden
   if (!nameDigits(data, result)) {
     std::vector<Fitted> fitted;
     if (data.instants.size() >= least_instants && !isAtRest(data)) fitted = fittedCauses(data);
-    if (!nameAll(fitted, result) && !nameWindow(data, result)) listParts(fitted, data, result);
+    const auto least = std::min_element(fitted.begin(), fitted.end(),
+                                        [](const Fitted& a, const Fitted& b) { return a.beyond < b.beyond; });
+    if (!nameAll(fitted, result) && !(least != fitted.end() && nameSeveral(data, least->beyond, result)) &&
+        !nameWindow(data, result))
+      listParts(fitted, data, result);
   }
   result.findings.push_back({"torques that are off", result.cause_words.off});
   result.findings.push_back({"likely cause", result.cause_words.cause});

@@ -5,20 +5,6 @@
 namespace ursula::mechanisms {
 namespace {
 
-/// What a motor must overcome along each coordinate, beside the bodies' wrenches.
-VectorXd loadsOf(const Mechanism& mechanism, const Instant& at) {
-  VectorXd out = VectorXd::Zero(static_cast<Eigen::Index>(at.coordinates.size()));
-  for (std::size_t c = 0; c < at.coordinates.size(); ++c) {
-    const Coordinate& each = at.coordinates[c];
-    const MechanismJoint& joint = mechanism.joints()[each.joint];
-    double& force = out(static_cast<Eigen::Index>(c));
-    force = joint.damping * each.rate + joint.rotor_inertia * each.acceleration +
-            joint.stiffness * (each.value - joint.spring_reference);
-    if (joint.friction != 0) force += joint.friction * std::tanh(each.rate / joint.smoothing());
-  }
-  return out;
-}
-
 Vector6d wrenchOf(const Mechanism& mechanism, const BodyState& state, const MechanismBody& body) {
   const Matrix3d R = state.displacement.linear(), I = R * body.inertia * R.transpose();
   const Vector3d omega = state.twist.head<3>(), alpha = state.twist_rate.head<3>(), a = state.twist_rate.tail<3>();
@@ -127,7 +113,7 @@ void addSoft(const EffortResidual& data, const OpenTree& open, const VectorXd& l
   MatrixXd of(data.noc.size(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t c = 0; c < columns.size(); ++c) of.col(static_cast<Eigen::Index>(c)) = columns[c];
   Tried tried{{CauseKind::closure, "soft", "all"},
-              [of, left_open](const VectorXd& x) { return VectorXd(left_open + of * x); },
+              [of, left_open](const EffortResidual&, const VectorXd& x) { return VectorXd(left_open + of * x); },
               VectorXd::Ones(of.cols())};
   tried.finish = [](const VectorXd& x, const VectorXd& uncertainty, NamedCause&) {
     return (x.array() > -uncertainty.array()).all();
@@ -148,7 +134,8 @@ void addClosureCauses(const EffortResidual& data, std::vector<Tried>& out) {
   const VectorXd left_open = change([&](const Instant& at) { return open.atMotors(at, open.forces(at)); });
   addFixed(out, {CauseKind::closure, "open"}, left_open);
   for (const bool rotors : {true, false})
-    addFixed(out, {CauseKind::closure, "bias"}, -data.each([&](const Instant& at) { return open.ofBias(at, rotors); }),
+    addFixed(out, {CauseKind::closure, "bias"},
+             VectorXd(-data.each([&](const Instant& at) { return open.ofBias(at, rotors); })),
              rotors ? "" : "but for the rotors");
   Eigen::Index i = 0;
   const auto right = [&] { return data.noc.segment(data.motors * i++, data.motors); };

@@ -89,7 +89,7 @@ void addOrder(const EffortResidual& data, std::vector<Tried>& out) {
     for (const std::size_t motor : order) named.legs.push_back(static_cast<int>(motor) + 1);
   else
     nameThem(data, flipped, named);
-  addFixed(out, named, efforts - data.noc, is_order && !flipped.empty() ? "some with the wrong sign" : "");
+  addFixed(out, named, VectorXd(efforts - data.noc), is_order && !flipped.empty() ? "some with the wrong sign" : "");
 }
 
 bool nameUnits(const EffortResidual& data, double factor, NamedCause& named) {
@@ -107,7 +107,8 @@ bool nameUnits(const EffortResidual& data, double factor, NamedCause& named) {
 
 Tried factorOf(const EffortResidual& data, NamedCause named, const VectorXd& part) {
   named.expected = 1;
-  Tried out{named, [part](const VectorXd& x) { return VectorXd(x(0) * part); }, VectorXd::Ones(1)};
+  Tried out{named, [part](const EffortResidual&, const VectorXd& x) { return VectorXd(x(0) * part); },
+            VectorXd::Ones(1)};
   out.finish = [&data](const VectorXd& x, const VectorXd& uncertainty, NamedCause& cause) {
     cause.found = 1 + x(0);
     cause.uncertainty = uncertainty(0);
@@ -131,7 +132,7 @@ void addEachMotor(const EffortResidual& data, const std::vector<int>& off, std::
       columns.col(static_cast<Eigen::Index>(i)) = column;
     }
     Tried tried{{is_offset ? CauseKind::offset : CauseKind::scale},
-                [columns](const VectorXd& x) { return VectorXd(columns * x); },
+                [columns](const EffortResidual&, const VectorXd& x) { return VectorXd(columns * x); },
                 VectorXd::Ones(columns.cols())};
     nameThem(data, off, tried.named);
     const double expected = is_offset ? 0 : 1;
@@ -152,7 +153,7 @@ void addEachMotor(const EffortResidual& data, const std::vector<int>& off, std::
 
 void addEffortCauses(const EffortResidual& data, std::vector<Tried>& out) {
   addOrder(data, out);
-  addFixed(out, {CauseKind::missing_term, "", "all"}, -data.noc, "every effort is zero");
+  addFixed(out, {CauseKind::missing_term, "", "all"}, VectorXd(-data.noc), "every effort is zero");
   out.push_back(factorOf(data, {CauseKind::scale, "", "all"}, data.noc));
   std::vector<int> off;
   for (Eigen::Index k = 0; k < data.motors; ++k) {

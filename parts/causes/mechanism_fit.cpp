@@ -16,7 +16,7 @@ class NumberFit {
  public:
   NumberFit(const Tried& tried, const EffortResidual& data) : tried_(tried), residual_(data.residual()), data_(data) {
     x_ = VectorXd::Zero(tried.steps.size());
-    predicted_ = tried.change(x_);
+    predicted_ = tried.change(data, x_);
   }
 
   const VectorXd& predicted() const { return predicted_; }
@@ -56,7 +56,7 @@ class NumberFit {
       VectorXd above = x_, below = x_;
       above(k) += tried_.steps(k);
       below(k) -= tried_.steps(k);
-      slopes_.col(k) = (tried_.change(above) - tried_.change(below)) / (2 * tried_.steps(k));
+      slopes_.col(k) = (tried_.change(data_, above) - tried_.change(data_, below)) / (2 * tried_.steps(k));
     }
   }
 
@@ -72,7 +72,7 @@ class NumberFit {
     VectorXd dx = tried_.steps.asDiagonal() * least.compute(scaled).solve(left());
     const double before = left().norm();
     for (int halvings = 0; halvings < 6; ++halvings, dx /= 2) {
-      const VectorXd there = tried_.change(x_ + dx);
+      const VectorXd there = tried_.change(data_, x_ + dx);
       if (!((residual_ - there).norm() < before)) continue;
       x_ += dx;
       predicted_ = there;
@@ -100,10 +100,15 @@ double EffortResidual::beyond(const VectorXd& left) const {
   return out;
 }
 
-void addFixed(std::vector<Tried>& out, const NamedCause& named, VectorXd change, const std::string& detail) {
-  Tried tried{named, [change = std::move(change)](const VectorXd&) { return change; }};
+void addFixed(std::vector<Tried>& out, const NamedCause& named, const ChangeOf& change, const std::string& detail) {
+  Tried tried{named, [change](const EffortResidual& of, const VectorXd&) { return change(of); }};
   tried.detail = detail;
   out.push_back(std::move(tried));
+}
+
+void addFixed(std::vector<Tried>& out, const NamedCause& named, VectorXd change, const std::string& detail) {
+  addFixed(
+      out, named, [change = std::move(change)](const EffortResidual&) { return change; }, detail);
 }
 
 std::vector<Fitted> fitAll(const std::vector<Tried>& tried, const EffortResidual& data) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 namespace ursula::mechanisms {
 
@@ -117,6 +118,19 @@ std::vector<Coordinate> coordinatesOf(const MechanismJoint& joint, const LoopWor
 }  // namespace
 
 Vector6d Instant::biasOf(std::size_t body) const { return work.bodies[body].twist_rate - work.T[body] * motion.qddot; }
+
+VectorXd loadsOf(const Mechanism& mechanism, const Instant& at) {
+  VectorXd out = VectorXd::Zero(static_cast<Eigen::Index>(at.coordinates.size()));
+  for (std::size_t c = 0; c < at.coordinates.size(); ++c) {
+    const Coordinate& each = at.coordinates[c];
+    const MechanismJoint& joint = mechanism.joints()[each.joint];
+    double& force = out(static_cast<Eigen::Index>(c));
+    force = joint.damping * each.rate + joint.rotor_inertia * each.acceleration +
+            joint.stiffness * (each.value - joint.spring_reference);
+    if (joint.friction != 0) force += joint.friction * std::tanh(each.rate / joint.smoothing());
+  }
+  return out;
+}
 
 Instant instantAt(const LoopMotion& motion, double t) {
   Instant out;

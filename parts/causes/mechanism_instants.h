@@ -36,6 +36,9 @@ struct Instant {
   Vector6d biasOf(std::size_t body) const;
 };
 
+/// What a motor must overcome along each coordinate, beside the bodies' wrenches.
+VectorXd loadsOf(const Mechanism& mechanism, const Instant& at);
+
 /// Follows the motion to t.
 Instant instantAt(const LoopMotion& motion, double t);
 

@@ -33,6 +33,8 @@ const JointTerm joint_terms[] = {
     {"springs", "", springOf},
 };
 
+using Joints = std::vector<std::size_t>;
+
 template <class Of>
 VectorXd jointEfforts(const EffortResidual& data, std::size_t joint, const Of& of) {
   const MechanismJoint& its = data.mechanism->joints()[joint];
@@ -49,27 +51,36 @@ bool isMotor(const Mechanism& mechanism, std::size_t joint) {
   return std::find(motors.begin(), motors.end(), joint) != motors.end();
 }
 
+/// A term of some joints, `times`.
+ChangeOf termOf(const Joints& joints, const JointTerm& term, double times) {
+  return [joints, of = term.of, times](const EffortResidual& data) {
+    VectorXd out = VectorXd::Zero(data.noc.size());
+    for (const std::size_t j : joints) out += times * jointEfforts(data, j, of);
+    return out;
+  };
+}
+
 void addTerm(const EffortResidual& data, const JointTerm& term, std::vector<Tried>& out) {
   const Mechanism& mechanism = *data.mechanism;
-  VectorXd of_motors = VectorXd::Zero(data.noc.size()), of_passive = of_motors;
-  int motors = 0, passive = 0;
+  Joints all, motors, passive;
   for (std::size_t j = 0; j < mechanism.joints().size(); ++j) {
     const MechanismJoint& joint = mechanism.joints()[j];
     if (!joint.isLoaded()) continue;
-    const VectorXd part = jointEfforts(data, j, term.of);
-    if (part.isZero(0)) continue;
+    if (jointEfforts(data, j, term.of).isZero(0)) continue;
     NamedCause named{CauseKind::missing_term, term.term};
     named.joint = joint.name;
-    addFixed(out, named, -part, term.detail);
+    addFixed(out, named, termOf({j}, term, -1), term.detail);
     named.kind = CauseKind::sign;
-    addFixed(out, named, -2 * part, term.detail);
-    (isMotor(mechanism, j) ? of_motors : of_passive) += part;
-    ++(isMotor(mechanism, j) ? motors : passive);
+    addFixed(out, named, termOf({j}, term, -2), term.detail);
+    all.push_back(j);
+    (isMotor(mechanism, j) ? motors : passive).push_back(j);
   }
   NamedCause named{CauseKind::missing_term, term.term, "all"};
-  if (motors + passive > 1) addScaledTerm(named, of_motors + of_passive, term.detail, out);
-  if (passive > 1 && motors > 0) named.body = "passive", addFixed(out, named, -of_passive, term.detail);
-  if (motors > 1 && passive > 0) named.body = "motors", addFixed(out, named, -of_motors, term.detail);
+  if (all.size() > 1) addScaledTerm(named, termOf(all, term, 1), term.detail, out);
+  if (passive.size() > 1 && !motors.empty())
+    named.body = "passive", addFixed(out, named, termOf(passive, term, -1), term.detail);
+  if (motors.size() > 1 && !passive.empty())
+    named.body = "motors", addFixed(out, named, termOf(motors, term, -1), term.detail);
 }
 
 /// A number of a joint to which the efforts are proportional.
@@ -101,9 +112,12 @@ void addNumber(const EffortResidual& data, std::size_t j, const JointNumber& num
   const bool is_reference = number.member == &MechanismJoint::spring_reference;
   Tried tried{{CauseKind::parameter, "", "", fmt::format("joint.{}.{}", joint.name, number.key),
                joint.slides() ? number.unit_of_slide : number.unit, expected},
-              [column](const VectorXd& x) { return VectorXd(x(0) * column); },
+              [column](const EffortResidual&, const VectorXd& x) { return VectorXd(x(0) * column); },
               VectorXd::Ones(1)};
   tried.named.joint = joint.name;
+  tried.machine = [j, member = number.member](MechanismParameters& machine, const VectorXd& x) {
+    machine.joints[j].*member += x(0);
+  };
   tried.finish = [expected, is_reference](const VectorXd& x, const VectorXd& uncertainty, NamedCause& named) {
     named.found = expected + x(0);
     named.uncertainty = uncertainty(0);

@@ -37,11 +37,14 @@ struct EffortResidual {
 /// One mistake with numbers x that are fitted, zero if there is none.
 struct Tried {
   NamedCause named;
-  std::function<VectorXd(const VectorXd& x)> change;  ///< of the right efforts
-  VectorXd steps = {};                                ///< for differences by each number; empty without numbers
+  /// The change of the right efforts of a motion, perhaps of another machine.
+  std::function<VectorXd(const EffortResidual& of, const VectorXd& x)> change;
+  VectorXd steps = {};  ///< for differences by each number; empty without numbers
   /// Sets what the fitted numbers mean; returns false if no machine can have them.
   std::function<bool(const VectorXd& x, const VectorXd& uncertainty, NamedCause& named)> finish = {};
   std::string detail = {};  ///< what the named cause does not tell; goes into the words
+  /// What is wrong, if it is the machine's numbers; then several apply at once.
+  std::function<void(MechanismParameters&, const VectorXd& x)> machine = {};
 };
 
 /// A mistake after its fit.
@@ -55,7 +58,10 @@ struct Fitted {
   VectorXd predicted = {};  ///< the change of the efforts
 };
 
-/// Adds a mistake without numbers.
+using ChangeOf = std::function<VectorXd(const EffortResidual&)>;
+
+/// Adds a mistake without numbers; in the second form its change is that of this motion and machine alone.
+void addFixed(std::vector<Tried>& out, const NamedCause& named, const ChangeOf& change, const std::string& detail = "");
 void addFixed(std::vector<Tried>& out, const NamedCause& named, VectorXd change, const std::string& detail = "");
 
 void addBodyCauses(const EffortResidual& data, std::vector<Tried>& out);
@@ -67,7 +73,20 @@ void addEffortCauses(const EffortResidual& data, std::vector<Tried>& out);
 void addDelay(const EffortResidual& data, std::vector<Fitted>& out);
 
 /// Adds (1 + x) times a term; 0 is left out and −1 has the wrong sign, which are mistakes without numbers.
-void addScaledTerm(const NamedCause& term, const VectorXd& part, const std::string& detail, std::vector<Tried>& out);
+void addScaledTerm(const NamedCause& term, const ChangeOf& part, const std::string& detail, std::vector<Tried>& out);
+
+/// The efforts of all bodies and joints at an instant of the motion, of a machine that may have other numbers.
+VectorXd effortsOf(const Mechanism& mechanism, const Instant& at);
+
+/// All mistakes after their fits, those with fewest numbers first.
+std::vector<Fitted> fittedCauses(const EffortResidual& data);
+
+/// Names the cause that explains everything, or lists those that do; false if none does.
+bool nameAll(const std::vector<Fitted>& fitted, ValidationResult& result);
+
+/// Names two or three mistakes that explain everything together; false if there are none for certain. `left` are the
+/// multiples of the limits that the best single mistake leaves.
+bool nameSeveral(const EffortResidual& data, double left, ValidationResult& result);
 
 /// Fits by least squares, Gauss–Newton if the efforts are not linear in the numbers. Drops what has no effect.
 std::vector<Fitted> fitAll(const std::vector<Tried>& tried, const EffortResidual& data);

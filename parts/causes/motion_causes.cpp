@@ -141,11 +141,11 @@ void addLoads(TriedCauses& out) {
   if (!out.scenario.load) return;
   const auto add = [&out](const std::string& text, CauseKind kind,
                           const std::function<void(Load&, const Matrix3d& Q)>& change) {
-    out.add({text, {kind, "load", "platform"}}, [&scenario = out.scenario, change] {
-      return [&scenario, change](const Motion<double>& motion) {
-        const auto other = std::make_shared<Load>(*scenario.load);
+    out.add({text, {kind, "load", "platform"}}, [change](const Scenario& of) {
+      return [machine = of.manipulator, load = of.load, change](const Motion<double>& motion) {
+        const auto other = std::make_shared<Load>(*load);
         change(*other, motion.Q);
-        return nocSubject(*scenario.manipulator, other).torques(motion);
+        return nocSubject(*machine, other).torques(motion);
       };
     });
   };
@@ -170,11 +170,11 @@ void addLoads(TriedCauses& out) {
 void addMotorInertia(TriedCauses& out) {
   const char* unit = allSlide(out.machine.motors()) ? "kg" : "kg m^2";
   Cause cause;
-  cause.solver = [&scenario = out.scenario](double x) {
-    const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
-    return [&scenario, noc, x](const Motion<double>& motion) {
+  cause.solver = [](const Scenario& of, double x) {
+    const Subject noc = nocSubject(*of.manipulator, of.load);
+    return [machine = of.manipulator, noc, x](const Motion<double>& motion) {
       const JointVariables<double> q_ddot = noc.kinematics(motion).joints.q_ddot;
-      return Vector6d(noc.torques(motion) + x * q_ddot.driven(scenario.manipulator->motors()));
+      return Vector6d(noc.torques(motion) + x * q_ddot.driven(machine->motors()));
     };
   };
   cause.words = [unit](double x, double deviation) {
@@ -185,7 +185,7 @@ void addMotorInertia(TriedCauses& out) {
     return NamedCause{CauseKind::missing_term, "rotor_inertia", "all", "", unit, 0, x, deviation};
   };
   cause.is_possible = [](double x) { return x > 0; };
-  out.causes.push_back(cause);
+  out.push(cause);
 }
 
 /// The factor of numbers read in another unit, or with a wrong factor (CauseKind::scale).

@@ -75,6 +75,7 @@ void sayPlaces(const Places& places, const Manipulator& machine, const FrameChan
   diagnosis.claim = CauseClaim::none;
   diagnosis.named.reset();
   diagnosis.others.clear();
+  diagnosis.together.clear();
 }
 
 }  // namespace ursula

@@ -71,10 +71,10 @@ void addMeasuredAlongTheOther(TriedCauses& out) {
 /// The distance of a rod's mass centre from the base's joint if it does not change; the rod slides, or rests.
 void addRodsAt(bool slides, TriedCauses& out) {
   Cause cause;
-  cause.solver = [&scenario = out.scenario, slides](double h) {
-    const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
-    return [&scenario, slides, h, noc](const Motion<double>& motion) {
-      const MachineTerms machine = machineTerms(*scenario.manipulator, scenario.load, motion);
+  cause.solver = [slides](const Scenario& of, double h) {
+    const Subject noc = nocSubject(*of.manipulator, of.load);
+    return [whole = of.manipulator, load = of.load, slides, h, noc](const Motion<double>& motion) {
+      const MachineTerms machine = machineTerms(*whole, load, motion);
       return Vector6d(noc.torques(motion) + ofRods(machine, [&](const OpenLeg& leg) {
                         return carried(leg.distal, slides ? leg.distal : leg.proximal,
                                        baseJoint(leg) + h * leg.distal.line);
@@ -90,7 +90,7 @@ void addRodsAt(bool slides, TriedCauses& out) {
       machineTerms(out.machine, out.scenario.load, out.scenario.trajectory->at(0)).legs[0].distal.from.norm();
   cause.starts.clear();
   for (int tenths = 1; tenths <= 20; ++tenths) cause.starts.push_back(0.1 * tenths * usual);
-  out.causes.push_back(cause);
+  out.push(cause);
 }
 
 /// The solver forgets that a rod gains speed along its line.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "parts/causes/fits.h"
+#include "parts/causes/tried_causes.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -48,6 +50,23 @@ std::string inSamples(const TorqueResidual& data, double shift) {
 }
 
 }  // namespace
+
+void addDelay(TriedCauses& out) {
+  Cause cause;
+  cause.reading = [&path = *out.scenario.trajectory](Motion<double>& motion, double x) {
+    const double t = motion.t - x;
+    if (!(t >= 0 && t <= path.duration())) throw std::invalid_argument("the motion has no such instant");
+    motion = path.at(t);
+  };
+  cause.solver = [read = cause.reading](const Scenario& of, double x) {
+    return [noc = nocSubject(*of.manipulator, of.load), read, x](Motion<double> motion) {
+      read(motion, x);
+      return noc.torques(motion);
+    };
+  };
+  cause.named = [](double x, double) { return NamedCause{CauseKind::delay, "", "all", "", "s", 0, x}; };
+  out.push(cause);
+}
 
 std::optional<Hypothesis> timeShift(const Scenario& scenario, const TorqueResidual& data) {
   const Subject noc = nocSubject(*scenario.manipulator, scenario.load);

@@ -53,21 +53,35 @@ std::map<std::string, std::vector<int>> kindsOf(const Manipulator& machine) {
   return out;
 }
 
-/// Efforts of `changed` with those of a mistake.
-std::function<EffortsOf()> withChange(const Scenario& scenario, const TriedCauses::EffortChange& change,
-                                      const std::shared_ptr<const Manipulator>& changed) {
-  return [&scenario, change, changed] {
+/// Right efforts with those of a mistake of a solver that knows `known` of the machine.
+std::function<EffortsOf(const Scenario&)> withChange(
+    const TriedCauses::EffortChange& change,
+    const std::function<std::shared_ptr<const Manipulator>(const Scenario&)>& known) {
+  return [change, known](const Scenario& scenario) {
     const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
-    return [&scenario, change, changed, noc](const Motion<double>& motion) {
-      return Vector6d(noc.torques(motion) + change(machineTerms(*changed, scenario.load, motion)));
+    return [load = scenario.load, change, machine = known(scenario), noc](const Motion<double>& motion) {
+      return Vector6d(noc.torques(motion) + change(machineTerms(*machine, load, motion)));
     };
   };
+}
+
+/// Without friction and rotors of the motors; `had` is whether there are any.
+Machine withoutMotors(const Manipulator& machine, bool& had) {
+  Machine out = machine.parameters();
+  had = false;
+  for (const Motor& motor : machine.motors()) {
+    Leg& leg = out.legs[static_cast<std::size_t>(motor.leg)];
+    for (double* number : {&leg.friction.on(motor.coordinate), &leg.coulomb.on(motor.coordinate),
+                           &leg.rotor_inertia.on(motor.coordinate)})
+      had = std::exchange(*number, 0) > 0 || had;
+  }
+  return out;
 }
 
 }  // namespace
 
 std::vector<Vector6d> Cause::torques(double x, const std::vector<Motion<double>>& motions) const {
-  const EffortsOf efforts = solver(x);
+  const EffortsOf efforts = solver(*scenario, x);
   std::vector<Vector6d> out;
   for (const Motion<double>& motion : motions) out.push_back(efforts(motion));
   return out;
@@ -93,26 +107,40 @@ Manipulator withoutStroke(const Manipulator& machine) {
   return Manipulator(out);
 }
 
+void addEveryCause(TriedCauses& out) {
+  for (const auto add : {addMachineCauses, addMotionCauses, addTermCauses, addJointCauses, addSlidingCauses,
+                         addJacobianCauses, addLoopCauses})
+    add(out);
+}
+
 std::vector<Cause> causesOf(const Scenario& scenario, void (*group)(TriedCauses&)) {
   TriedCauses out{scenario};
   group(out);
   return std::move(out.causes);
 }
 
-Cause& TriedCauses::add(const CauseName& name, const std::function<EffortsOf()>& solver) {
-  causes.push_back({false, [solver](double) { return solver(); }, [text = name.text](double, double) { return text; }});
-  if (name.named) causes.back().named = [named = name.named](double, double) { return named; };
+Cause& TriedCauses::push(const Cause& cause) {
+  causes.push_back(cause);
+  causes.back().scenario = &scenario;
   return causes.back();
 }
 
+Cause& TriedCauses::add(const CauseName& name, const std::function<EffortsOf(const Scenario&)>& solver) {
+  Cause& out = push({false, [solver](const Scenario& of, double) { return solver(of); },
+                     [text = name.text](double, double) { return text; }});
+  if (name.named) out.named = [named = name.named](double, double) { return named; };
+  return out;
+}
+
 Cause& TriedCauses::addReading(const CauseName& name, const std::function<void(Motion<double>&)>& change) {
-  Cause& out = add(name, [&scenario = scenario, change] {
-    const Subject noc = nocOf(scenario.manipulator->parameters(), scenario);
+  Cause& out = add(name, [change](const Scenario& of) {
+    const Subject noc = nocOf(of.manipulator->parameters(), of);
     return [noc, change](Motion<double> motion) {
       change(motion);
       return noc.torques(motion);
     };
   });
+  out.reading = [change](Motion<double>& motion, double) { change(motion); };
   out.rounding = [&scenario = scenario, change](Motion<double> motion) {
     change(motion);
     return roundingOfMachine(withoutStroke(*scenario.manipulator), scenario, motion);
@@ -121,32 +149,33 @@ Cause& TriedCauses::addReading(const CauseName& name, const std::function<void(M
 }
 
 void TriedCauses::addNotTurned(const CauseName& name, const std::function<void(Machine&, const Matrix3d& Q)>& change) {
-  add(name, [&scenario = scenario, change] {
-    return [&scenario, change](const Motion<double>& motion) {
-      Machine changed = scenario.manipulator->parameters();
+  add(name, [change](const Scenario& of) {
+    return [of, change](const Motion<double>& motion) {
+      Machine changed = of.manipulator->parameters();
       change(changed, motion.Q);
-      return nocOf(changed, scenario).torques(motion);
+      return nocOf(changed, of).torques(motion);
     };
   });
 }
 
 void TriedCauses::addMachine(const CauseName& name, const std::function<void(Machine&)>& change, double times) {
-  const auto changed = [&scenario = scenario, change] {
-    Machine out = scenario.manipulator->parameters();
+  const auto changed = [change](const Scenario& of) {
+    Machine out = of.manipulator->parameters();
     change(out);
     return out;
   };
-  Cause& cause = add(name, [&scenario = scenario, changed, times] {
-    const EffortsOf wrong = nocOf(changed(), scenario).torques;
+  Cause& cause = add(name, [changed, times](const Scenario& of) {
+    const EffortsOf wrong = nocOf(changed(of), of).torques;
     if (times == 1) return wrong;
-    return EffortsOf([times, wrong, right = nocOf(scenario.manipulator->parameters(), scenario).torques](
-                         const Motion<double>& motion) {
-      const Vector6d efforts = right(motion);
-      return Vector6d(efforts + times * (wrong(motion) - efforts));
-    });
+    return EffortsOf(
+        [times, wrong, right = nocOf(of.manipulator->parameters(), of).torques](const Motion<double>& motion) {
+          const Vector6d efforts = right(motion);
+          return Vector6d(efforts + times * (wrong(motion) - efforts));
+        });
   });
+  if (times == 1) cause.machine = [change](Machine& wrong, double) { change(wrong); };
   cause.rounding = [&scenario = scenario, changed](const Motion<double>& motion) {
-    const Manipulator other(changed());
+    const Manipulator other(changed(scenario));
     try {  // its own numbers round less than those without strokes
       return roundingOfMachine(other, scenario, motion);
     } catch (const PoseError&) {
@@ -176,16 +205,17 @@ void TriedCauses::addLinks(const std::string& before, const std::string& after, 
 Cause& TriedCauses::addFitted(const std::function<void(Machine&, double)>& change, const Cause::Words& words,
                               const Cause::Named& named) {
   if (!slopes) slopes = std::make_shared<MachineSlopes>(scenario);
-  const auto solver = [&scenario = scenario, change](double x) {
-    Machine changed = scenario.manipulator->parameters();
+  const auto solver = [change](const Scenario& of, double x) {
+    Machine changed = of.manipulator->parameters();
     change(changed, x);
-    return nocOf(changed, scenario).torques;
+    return nocOf(changed, of).torques;
   };
   const auto slope = [slopes = slopes, change](const std::vector<Motion<double>>& motions) {
     return slopes->along(change, motions);
   };
-  causes.push_back({true, solver, words, named, slope});
-  return causes.back();
+  Cause& out = push({true, solver, words, named, slope});
+  out.machine = change;
+  return out;
 }
 
 void TriedCauses::addTied(const TiedParameters& tied) {
@@ -199,26 +229,23 @@ void TriedCauses::addTied(const TiedParameters& tied) {
   if (tied.members.size() == 1 && first.entries == 3 && first.get(right) != 0)  // the wrong sign is far from the right
     cause.starts.push_back(-2 * first.get(right) / first.size(right));
   if (first.group() == NumberGroup::inertia)
-    cause.solver = [&scenario = scenario, change](double x) { return effortsOfInertias(scenario, change, x); };
+    cause.solver = [change](const Scenario& of, double x) { return effortsOfInertias(of, change, x); };
 }
 
 void TriedCauses::addEfforts(const CauseName& name, const EffortChange& change) {
-  add(name, withChange(scenario, change, scenario.manipulator));
+  add(name, withChange(change, [](const Scenario& of) { return of.manipulator; }));
 }
 
 void TriedCauses::addAlsoWithoutMotors(const std::string& text, const NamedCause& named, const EffortChange& change) {
   addEfforts({text, named}, change);
-  ManipulatorParameters bare = machine.parameters();
-  double motors = 0;
-  for (const Motor& motor : machine.motors()) {
-    Leg& leg = bare.legs[static_cast<std::size_t>(motor.leg)];
-    for (double* number : {&leg.friction.on(motor.coordinate), &leg.coulomb.on(motor.coordinate),
-                           &leg.rotor_inertia.on(motor.coordinate)})
-      motors += std::exchange(*number, 0);
-  }
-  if (motors > 0)
+  bool had = false;
+  static_cast<void>(withoutMotors(machine, had));
+  if (had)
     add({text + ", before the motors' own friction and rotors were added", named},
-        withChange(scenario, change, std::make_shared<const Manipulator>(bare)));
+        withChange(change, [](const Scenario& of) {
+          bool any = false;
+          return std::make_shared<const Manipulator>(withoutMotors(*of.manipulator, any));
+        }));
 }
 
 }  // namespace ursula

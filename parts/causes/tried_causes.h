@@ -25,8 +25,8 @@ struct Cause {
   using Named = std::function<std::optional<NamedCause>(double x, double deviation)>;
 
   bool fitted = true;
-  /// The solver with this x. Throws std::invalid_argument if there is none.
-  std::function<EffortsOf(double x)> solver;
+  /// The solver of a scenario with this x. Throws std::invalid_argument if there is none.
+  std::function<EffortsOf(const Scenario&, double x)> solver;
   /// "platform mass 499.31 +- 0.02 kg instead of 500"; `deviation` is two standard deviations of x.
   Words words;
   /// The same as `words`, typed; empty if the contract has no name for it.
@@ -39,6 +39,10 @@ struct Cause {
   std::function<bool(double x)> is_possible = {};
   /// Where the fit may begin; other numbers than 0 are tried as they are.
   std::vector<double> starts = {0};
+  /// What is wrong, if it is the machine's numbers or the motion as it was read; then several apply at once.
+  std::function<void(ManipulatorParameters&, double x)> machine = {};
+  std::function<void(Motion<double>&, double x)> reading = {};
+  const Scenario* scenario = nullptr;  ///< of TriedCauses, which sets it
 
   /// The torques, N·m. Throws std::invalid_argument or PoseError if they do not exist for this x.
   std::vector<Vector6d> torques(double x, const std::vector<Motion<double>>& motions) const;
@@ -69,8 +73,9 @@ struct TriedCauses {
   bool one_by_one = false;                     ///< whether different numbers of the machine are never tied
   std::shared_ptr<MachineSlopes> slopes = {};  ///< once a machine's number is fitted
 
+  Cause& push(const Cause& cause);
   /// Adds a cause without a fitted number; `solver` is called when it is tried.
-  Cause& add(const CauseName& name, const std::function<EffortsOf()>& solver);
+  Cause& add(const CauseName& name, const std::function<EffortsOf(const Scenario&)>& solver);
 
   /// Adds the NOC's efforts for a motion that a solver read otherwise; telescopic legs then have no end of stroke.
   Cause& addReading(const CauseName& name, const std::function<void(Motion<double>&)>& change);
@@ -133,6 +138,14 @@ void addLoopCauses(TriedCauses& out);
 /// Mistakes with sliding legs, UPS and PUS: a mass centre is measured from the joint at the leg's other end, or a force
 /// is along the wrong line.
 void addSlidingCauses(TriedCauses& out);
+
+/// All of the groups above.
+void addEveryCause(TriedCauses& out);
+
+/// Terms left out or with the wrong sign, of the paper's solver as well; `torqueTerms` fits their factors.
+void addTerms(TriedCauses& out);
+/// Efforts of another time, t − x.
+void addDelay(TriedCauses& out);
 
 /// Rates that a solver takes as differences between the instants of its torques, s. None if these are too few.
 void addDifferenceCauses(const std::vector<double>& instants, TriedCauses& out);

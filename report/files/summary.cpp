@@ -101,6 +101,8 @@ void addCauses(const ValidationResult& result, Json& summary) {
   summary["cause"] = result.cause ? causeJson(*result.cause) : Json();
   summary["causes"] = Json::array();
   for (const NamedCause& other : result.causes) summary["causes"].push_back(causeJson(other));
+  summary["causes_together"] = Json::array();
+  for (const NamedCause& each : result.causes_together) summary["causes_together"].push_back(causeJson(each));
   summary["terms"] = Json::array();
   for (const TermError& each : result.terms) summary["terms"].push_back({{"term", each.term}, {"error", each.error}});
 }

@@ -157,6 +157,28 @@ class MechanismCause : public testing::TestWithParam<const char*> {
   const Machine machine;
 };
 
+/// A body's mass and what is done to the efforts afterwards; the mass alone is one mistake.
+TEST_P(MechanismCause, NamesTwoMistakesTogether) {
+  MechanismParameters heavier = machine.parameters();
+  const std::size_t body = lastBody(machine.mechanism());
+  heavier.bodies[body].mass *= 1.03;
+  std::vector<MotorEfforts> efforts = machine.efforts(heavier);
+  EXPECT_TRUE(machine.judge(efforts).causes_together.empty());
+  for (MotorEfforts& each : efforts) each(0) += 0.1;
+  const ValidationResult result = machine.judge(efforts);
+  ASSERT_EQ(result.causes_together.size(), 2U) << result.cause_words.cause;
+  const bool mass_first = result.causes_together[0].kind == CauseKind::parameter;
+  const NamedCause &mass = result.causes_together[mass_first ? 0 : 1],
+                   &offset = result.causes_together[mass_first ? 1 : 0];
+  EXPECT_EQ(mass.parameter, "body." + heavier.bodies[body].name + ".mass") << result.cause_words.cause;
+  EXPECT_NEAR(mass.found.value_or(0), heavier.bodies[body].mass, 1e-8);
+  EXPECT_EQ(offset.kind, CauseKind::offset);
+  EXPECT_NEAR(offset.found.value_or(0), 0.1, 1e-8);
+  EXPECT_EQ(result.cause.value().kind, result.causes_together[0].kind);
+  EXPECT_GE(result.causes_together[0].explained, result.causes_together[1].explained);
+  EXPECT_THAT(result.cause_words.cause, HasSubstr("two mistakes together: "));
+}
+
 TEST_P(MechanismCause, NamesFactorSignAndOffset) {
   const ValidationResult scaled = judgeEfforts(machine, [](std::size_t, auto& tau) { tau *= 1.01; });
   ASSERT_TRUE(scaled.cause) << scaled.cause_words.cause;

@@ -323,6 +323,7 @@ struct ValidationResult {
   std::optional<ReplayError> replay_error;      ///< nullopt if the caller left it out
   std::optional<NamedCause> cause;              ///< of wrong efforts; nullopt unless exactly one explains everything
   std::vector<NamedCause> causes;               ///< others that explain the deviation equally well
+  std::vector<NamedCause> causes_together;      ///< two or three that explain it only together; `cause` is the first
   std::vector<TermError> terms;                 ///< of a solver that was asked apart; empty for efforts from a file
   std::optional<std::vector<BlindSpot>> blind;  ///< what the scenario cannot show; nullopt if it was not asked
   CauseWords cause_words;                       ///< empty if no effort is wrong

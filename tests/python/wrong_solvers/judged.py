@@ -6,6 +6,7 @@ A solver is `right` where the cause that is named is one of those expected, `sil
 """
 
 import fnmatch
+import itertools
 import re
 import sys
 import time
@@ -18,6 +19,7 @@ from machines import build  # noqa: E402
 from wrong import W as SOLVERS  # noqa: E402
 import further  # noqa: E402, F401, which adds to them
 import more  # noqa: E402, F401, which adds to them
+import several  # noqa: E402, F401, which adds to them
 
 FIELDS = ("leg", "motor")
 OF_ONE = ("sign", "scale", "offset", "missing_term", "reference_point", "units")
@@ -45,6 +47,13 @@ def is_right(cause, alternative):
         fits(value, cause[field]) for field, value in alternative.items() if field in cause)
 
 
+def are_right(causes, mistakes):
+    """Each of several mistakes is named, and nothing else."""
+    return len(causes) == len(mistakes) and any(
+        all(any(is_right(cause, each) for each in alternatives) for cause, alternatives in zip(some, mistakes))
+        for some in itertools.permutations(causes))
+
+
 def judged(solver):
     """(class, cause): `right`, `silent`, `wrong`, or `missed` where the verdict is not the one expected."""
     document, where = scenario(solver["machine"])
@@ -54,6 +63,11 @@ def judged(solver):
         return ("right" if result.verdict == "pass" and cause is None else "missed"), cause
     if result.verdict != "fail":
         return "missed", cause
+    together = result.summary["causes_together"]
+    if isinstance(expected, dict):
+        return ("silent" if cause is None else "right" if are_right(together, expected["together"]) else "wrong"), together
+    if together:
+        return "wrong", together
     if cause is None:
         return ("right" if expected is None or None in expected else "silent"), cause
     return ("right" if any(is_right(cause, each) for each in expected or [] if each) else "wrong"), cause

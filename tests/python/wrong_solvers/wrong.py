@@ -202,19 +202,5 @@ add('RUS UPS', 'par-all-distal-mass', 'mass of all distal links 10 % up', [K('pa
 add('UPS', 'par-gravity', 'g = 9.81 straight down instead of tilted', [K('parameter', parameter='manipulator.gravity*'), K('frame', term='gravity')], params=lambda m, d: m.update(gravity=[0, 0, -9.81]))
 add('RUS', 'par-g-up', 'gravity upwards', [K('parameter', parameter='manipulator.gravity*'), K('sign', term='gravity'), MT('gravity')], params=lambda m, d: m.update(gravity=[-x for x in m['gravity']]))
 
-# two at once
-def two(a, b, mach, flags, params=None):
-    def mk(d, s):
-        e = copy.deepcopy(d)
-        if params: params(e['manipulator'], e)
-        return Hexapod(e, **flags)
-    add(mach, f'two-{a}+{b}', f'{a} and {b}', None, mk)
-two('gyro-platform', 'platform mass', 'UPS RUS', dict(no_gyro='platform'), P('platform.mass', fac=1.02))
-two('centripetal', 'coriolis-legs', 'PUS UPS', dict(no_platform_centripetal=True, no_coriolis='legs'))
-two('w-body', 'leg 3 mass', 'RUS', dict(w_frame='M'), P('leg.3.distal.mass', fac=1.1))
-two('grav-platform', 'load-none', 'PUSF', dict(no_gravity='platform', no_load=True))
-two('platform mass', 'leg 2 mass', 'UPS', {}, lambda m, d: (P('platform.mass', fac=1.02)(m, d), P('leg.2.proximal.mass', fac=1.2)(m, d)))
-two('friction-none', 'bias', 'UPSF', dict(friction='none', no_bias='both'))
-two('spin', 'gyro-platform', 'URS', dict(no_spin='legs', no_gyro='platform'))
 # right ones
 add('URSF UPSF RUSF PUSF mix ups', 'right', 'no mistake', 'pass')

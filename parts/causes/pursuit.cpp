@@ -1,0 +1,351 @@
+#include "parts/causes/pursuit.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <set>
+
+namespace ursula {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Indices = std::vector<std::size_t>;
+
+/// An explanation leaves at most these multiples of the limits everywhere, and less than chance would. Without one of
+/// its mistakes much more is left; none has an effect that is far larger than all.
+constexpr double most_beyond = 2, by_chance = 0.1, much_more = 20, far_larger = 30;
+/// An effect that is smaller, relative to the efforts, is none; columns that differ less are one.
+constexpr double no_effect = 1e-9, one_column = 1e-13, nearly_one = 1e-10;
+constexpr std::size_t likely_sets = 80, best_sets = 24;
+constexpr Index most_permuted = 6;
+
+Index motorsOf(const OutputMistake& of) { return std::max({of.factor.size(), of.gain.size(), of.offset.size()}); }
+
+Mistakes without(const Mistakes& of, std::size_t member) {
+  Mistakes out;
+  out.x.resize(of.x.size() - 1);
+  for (std::size_t i = 0; i < of.which.size(); ++i) {
+    if (i == member) continue;
+    out.x(static_cast<Index>(out.which.size())) = of.x(static_cast<Index>(i));
+    out.which.push_back(of.which[i]);
+  }
+  return out;
+}
+
+Mistakes alone(const Mistakes& of, std::size_t member) {
+  return {{of.which[member]}, of.x.segment(static_cast<Index>(member), 1)};
+}
+
+/// Keeps those that leave least, each set once.
+void keepBest(std::vector<Mistakes>& sets, std::size_t most) {
+  std::stable_sort(sets.begin(), sets.end(),
+                   [](const Mistakes& a, const Mistakes& b) { return a.unexplained < b.unexplained; });
+  std::set<Indices> known;
+  std::vector<Mistakes> out;
+  for (Mistakes& one : sets) {
+    Indices which = one.which;
+    std::sort(which.begin(), which.end());
+    if (out.size() < most && known.insert(which).second) out.push_back(std::move(one));
+  }
+  sets = std::move(out);
+}
+
+}  // namespace
+
+VectorXd OutputMistake::of(const VectorXd& efforts, double x) const {
+  VectorXd out = efforts;
+  const Index n = motorsOf(*this);
+  for (Index at = 0; at < efforts.size(); at += n)
+    for (Index k = 0; k < n; ++k) {
+      double& one = out(at + k);
+      if (!from.empty()) one = efforts(at + from[static_cast<std::size_t>(k)]);
+      if (factor.size() > 0) one *= factor(k);
+      if (gain.size() > 0) one *= 1 + x * gain(k);
+      if (offset.size() > 0) one += x * offset(k);
+    }
+  return out;
+}
+
+VectorXd OutputMistake::undone(const VectorXd& efforts) const {
+  VectorXd out = efforts;
+  const Index n = motorsOf(*this);
+  for (Index at = 0; at < efforts.size(); at += n)
+    for (Index k = 0; k < n; ++k)
+      out(at + (from.empty() ? k : from[static_cast<std::size_t>(k)])) = efforts(at + k) / factor(k);
+  return out;
+}
+
+Pursuit::Pursuit(std::vector<Suspect> suspects, VectorXd right, VectorXd found, VectorXd limit, Index motors,
+                 EffortsTogether together)
+    : suspects_(std::move(suspects)),
+      right_(std::move(right)),
+      found_(std::move(found)),
+      limit_(std::move(limit)),
+      motors_(motors),
+      together_(std::move(together)) {
+  addOutputs();
+  setColumns();
+}
+
+/// Signs, units, and orders; of many motors those that exchange two. Then factors and offsets.
+void Pursuit::addOutputs() {
+  const Index n = motors_;
+  const VectorXd ones = VectorXd::Ones(n);
+  for (unsigned which = 1; n <= most_permuted && which < 1U << n; ++which) {
+    VectorXd signs = ones;
+    for (Index k = 0; k < n; ++k)
+      if ((which >> k & 1U) != 0) signs(k) = -1;
+    outputs_.push_back({{}, signs});
+  }
+  constexpr double g = 9.80665, degrees = 57.29577951308232, pound_foot = 1.3558179483314004;
+  for (const double unit : {1e3, 1e6, 1e2, 1e1, g, degrees, pound_foot, 4.4482216152605, 8.850745791327184})
+    for (const double factor : {unit, 1 / unit}) outputs_.push_back({{}, factor * ones});
+  std::vector<Index> own(static_cast<std::size_t>(n));
+  std::iota(own.begin(), own.end(), Index{0});
+  std::vector<Index> from = own;
+  while (n <= most_permuted && std::next_permutation(from.begin(), from.end())) outputs_.push_back({from, ones});
+  for (std::size_t i = 0; n > most_permuted && i < own.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      outputs_.push_back({own, ones});
+      std::swap(outputs_.back().from[i], outputs_.back().from[j]);
+    }
+  discrete_ = outputs_.size();
+  for (Index k = 0; k < n; ++k) {
+    outputs_.push_back({{}, {}, {}, VectorXd::Unit(n, k)});
+    if (n > 1) outputs_.push_back({{}, {}, VectorXd::Unit(n, k)});
+  }
+  outputs_.push_back({{}, {}, ones});
+}
+
+/// Columns of suspects with an effect of their own, then of outputs with a number.
+void Pursuit::setColumns() {
+  std::vector<VectorXd> columns;
+  const double least = no_effect * std::max(right_.norm(), found_.norm());
+  for (std::size_t place = 0; place < suspects_.size() + outputs_.size(); ++place) {
+    if (isOutput(place) && !hasNumber(place)) continue;
+    const VectorXd effect = isOutput(place) ? VectorXd(output(place).of(right_, 1) - right_) : suspects_[place].effect;
+    if (!effect.allFinite() || !(effect.norm() > (hasNumber(place) ? 0 : least))) continue;
+    bool is_new = true;
+    for (std::size_t i = 0; i < columns.size() && is_new; ++i) {
+      if (hasNumber(places_[i]) != hasNumber(place)) continue;
+      const double along = columns[i].dot(effect), a2 = columns[i].squaredNorm(), b2 = effect.squaredNorm();
+      is_new = !(along * along > (1 - one_column) * a2 * b2) || (!hasNumber(place) && std::abs(along - a2) > 1e-7 * a2);
+    }
+    if (!is_new) continue;
+    places_.push_back(place);
+    columns.push_back(effect);
+  }
+  columns_.resize(right_.size(), static_cast<Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i) columns_.col(static_cast<Index>(i)) = columns[i];
+}
+
+bool Pursuit::hasNumber(std::size_t place) const {
+  return isOutput(place) ? output(place).hasNumber() : suspects_[place].has_number;
+}
+
+std::optional<VectorXd> Pursuit::efforts(const Mistakes& of, const EffortsTogether& together) const {
+  Indices which;
+  std::vector<double> x;
+  for (std::size_t i = 0; i < of.which.size(); ++i) {
+    if (isOutput(of.which[i])) continue;
+    which.push_back(of.which[i]);
+    x.push_back(of.x(static_cast<Index>(i)));
+  }
+  std::optional<VectorXd> out = together(which, Eigen::Map<const VectorXd>(x.data(), static_cast<Index>(x.size())));
+  for (const bool with_number : {true, false})  // an order comes last
+    for (std::size_t i = 0; out && i < of.which.size(); ++i)
+      if (isOutput(of.which[i]) && hasNumber(of.which[i]) == with_number)
+        out = output(of.which[i]).of(*out, of.x(static_cast<Index>(i)));
+  if (out && !out->allFinite()) return std::nullopt;
+  return out;
+}
+
+VectorXd Pursuit::left(const Mistakes& of) const {
+  const std::optional<VectorXd> made = efforts(of, together_);
+  return made ? VectorXd(found_ - *made) : VectorXd::Constant(found_.size(), HUGE_VAL);
+}
+
+/// Gauss–Newton by differences; sets what is left.
+void Pursuit::improve(Mistakes& mistakes, int steps) const {
+  std::vector<Index> numbers;
+  for (std::size_t i = 0; i < mistakes.which.size(); ++i)
+    if (hasNumber(mistakes.which[i])) numbers.push_back(static_cast<Index>(i));
+  VectorXd remaining = left(mistakes);
+  bool better = !numbers.empty();
+  for (int k = 0; k < steps && better && remaining.allFinite(); ++k) {
+    MatrixXd slopes(remaining.size(), static_cast<Index>(numbers.size()));
+    VectorXd sizes(slopes.cols());
+    for (Index i = 0; i < slopes.cols(); ++i) {
+      Mistakes above = mistakes, below = mistakes;
+      const Index number = numbers[static_cast<std::size_t>(i)];
+      const double h = step(mistakes.which[static_cast<std::size_t>(number)]);
+      above.x(number) += h, below.x(number) -= h;
+      slopes.col(i) = (left(below) - left(above)) / (2 * h);
+      sizes(i) = std::max(slopes.col(i).norm(), 1e-300);
+      slopes.col(i) /= sizes(i);
+    }
+    if (!slopes.allFinite()) break;
+    VectorXd dx = slopes.colPivHouseholderQr().solve(remaining).cwiseQuotient(sizes);
+    better = false;
+    for (int halvings = 0; halvings < 4 && !better; ++halvings, dx /= 2) {
+      Mistakes there = mistakes;
+      for (Index i = 0; i < dx.size(); ++i) there.x(numbers[static_cast<std::size_t>(i)]) += dx(i);
+      const VectorXd then = left(there);
+      better = then.norm() < remaining.norm();
+      if (better) mistakes.x = there.x, remaining = then;
+    }
+  }
+  mistakes.numbers = static_cast<int>(numbers.size());
+  mistakes.unexplained = remaining.norm() / (found_ - right_).norm();
+  mistakes.beyond = (remaining.cwiseAbs().array() / limit_.array()).maxCoeff<Eigen::PropagateNaN>();
+}
+
+/// Every mistake as a start of pairs, with its number to first order.
+std::vector<Mistakes> Pursuit::singles() const {
+  std::vector<Mistakes> out;
+  const VectorXd residual = found_ - right_;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const auto column = columns_.col(static_cast<Index>(i));
+    const double x = hasNumber(places_[i]) ? column.dot(residual) / column.squaredNorm() : 0;
+    out.push_back({{places_[i]}, VectorXd::Constant(1, x)});
+  }
+  for (std::size_t i = 0; i < discrete_; ++i) out.push_back({{suspects_.size() + i}, VectorXd::Zero(1)});
+  return out;
+}
+
+/// Adds each further mistake by least squares, in which the start's own numbers are fitted again. What was done last is
+/// undone first.
+void Pursuit::extend(const Mistakes& start, std::vector<Mistakes>& out) const {
+  const bool is_last = isOutput(start.which.back()) && !hasNumber(start.which.back());
+  const Mistakes inner = is_last ? without(start, start.which.size() - 1) : start;
+  const VectorXd target = is_last ? output(start.which.back()).undone(found_) : found_;
+  const std::optional<VectorXd> base = inner.which.empty() ? right_ : efforts(inner, together_);
+  if (!base) return;
+  MatrixXd slopes = MatrixXd::Zero(right_.size(), std::max<Index>(1, inner.x.size()));
+  for (Index k = 0; k < inner.x.size(); ++k) {
+    if (!hasNumber(inner.which[static_cast<std::size_t>(k)])) continue;
+    Mistakes near = inner;
+    near.x(k) += step(inner.which[static_cast<std::size_t>(k)]);
+    if (const std::optional<VectorXd> there = efforts(near, together_)) slopes.col(k) = (*there - *base).normalized();
+  }
+  const Eigen::ColPivHouseholderQR<MatrixXd> factors(slopes);
+  const MatrixXd Q = factors.householderQ() * MatrixXd::Identity(right_.size(), factors.rank());
+  VectorXd residual = target - *base;
+  residual -= Q * (Q.transpose() * residual);
+  MatrixXd columns = columns_;
+  for (std::size_t i = 0; i < places_.size(); ++i)
+    if (isOutput(places_[i])) columns.col(static_cast<Index>(i)) = output(places_[i]).of(*base, 1) - *base;
+  const VectorXd along = columns.transpose() * residual;
+  const VectorXd all = columns.colwise().squaredNorm().transpose();
+  VectorXd across = all;
+  for (Index k = 0; k < Q.cols(); ++k) across -= (columns.transpose() * Q.col(k)).cwiseAbs2();
+  const double scale = found_.norm() / std::max(target.norm(), 1e-300);
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const auto k = static_cast<Index>(i);
+    if (std::find(start.which.begin(), start.which.end(), places_[i]) != start.which.end()) continue;
+    if (hasNumber(places_[i]) && !(across(k) > nearly_one * all(k))) continue;
+    const double x = hasNumber(places_[i]) ? along(k) / across(k) : 0;
+    const double less = hasNumber(places_[i]) ? x * along(k) : 2 * along(k) - across(k);
+    Mistakes more{inner.which, VectorXd::Zero(static_cast<Index>(start.which.size()) + 1)};
+    more.which.push_back(places_[i]);
+    more.x.head(inner.x.size()) = inner.x;
+    more.x(inner.x.size()) = x;
+    if (is_last) more.which.push_back(start.which.back());
+    more.unexplained = scale * std::sqrt(std::max(0.0, residual.squaredNorm() - less));
+    out.push_back(std::move(more));
+  }
+}
+
+std::vector<Mistakes> Pursuit::extended(const std::vector<Mistakes>& smaller) const {
+  std::vector<Mistakes> out;
+  for (const Mistakes& start : smaller) {
+    extend(start, out);
+    if (out.size() > 20 * likely_sets) keepBest(out, likely_sets);
+  }
+  keepBest(out, likely_sets);
+  for (Mistakes& one : out) improve(one, 2);
+  keepBest(out, likely_sets);
+  for (std::size_t i = 0; i < std::min(out.size(), best_sets); ++i) improve(out[i], 10);
+  return out;
+}
+
+bool Pursuit::isEachNeeded(const Mistakes& mistakes) const {
+  for (std::size_t i = 0; i < mistakes.which.size(); ++i) {
+    const std::optional<VectorXd> one = efforts(alone(mistakes, i), together_);
+    if (!one || !((*one - right_).norm() <= far_larger * (found_ - right_).norm())) return false;
+    Mistakes others = without(mistakes, i);
+    improve(others, 6);
+    if (!(others.beyond > much_more * std::max(1.0, mistakes.beyond))) return false;
+  }
+  return true;
+}
+
+bool Pursuit::areAlike(const Mistakes& a, const Mistakes& b) const {
+  return std::is_permutation(
+      a.which.begin(), a.which.end(), b.which.begin(), b.which.end(), [this](std::size_t i, std::size_t j) {
+        if (i == j || isOutput(i) || isOutput(j)) return i == j;
+        const NamedCause &one = suspects_[i].named, &other = suspects_[j].named;
+        return one.kind == other.kind && one.term == other.term && one.leg == other.leg && one.motor == other.motor &&
+               one.parameter == other.parameter && one.joint == other.joint;
+      });
+}
+
+std::vector<Mistakes> Pursuit::all() const {
+  std::vector<Mistakes> sets = singles(), out;
+  for (int count = 2; count <= 3 && out.empty(); ++count) {
+    sets = extended(sets);
+    std::copy_if(sets.begin(), sets.end(), std::back_inserter(out), [this](const Mistakes& one) {
+      return one.beyond <= most_beyond && one.unexplained <= by_chance && isEachNeeded(one);
+    });
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Mistakes& a, const Mistakes& b) { return a.numbers < b.numbers; });
+  return out;
+}
+
+std::optional<Mistakes> Pursuit::only() const {
+  const std::vector<Mistakes> sets = all();
+  const auto is_rival = [&](const Mistakes& other) {
+    return other.numbers <= sets.front().numbers && !areAlike(sets.front(), other);
+  };
+  if (sets.empty() || std::any_of(sets.begin() + 1, sets.end(), is_rival)) return std::nullopt;
+  return sets.front();
+}
+
+std::optional<SeveralNamed> nameEach(const Pursuit& pursuit, const Mistakes& mistakes, const VectorXd& residual,
+                                     const EffortsTogether& together, const NameAlone& name) {
+  std::vector<std::pair<NamedCause, std::string>> members;
+  const std::optional<VectorXd> all = pursuit.efforts(mistakes, together);
+  for (std::size_t i = 0; i < mistakes.which.size(); ++i) {
+    const std::optional<VectorXd> one = pursuit.efforts(alone(mistakes, i), together);
+    if (!all || !one) return std::nullopt;
+    const VectorXd effect = residual + (*one - *all);
+    std::optional<std::pair<NamedCause, std::string>> named = name(effect);
+    if (!named) return std::nullopt;
+    named->first.explained = std::clamp(residual.dot(effect) / residual.squaredNorm(), 0.0, 1.0);
+    members.push_back(std::move(*named));
+  }
+  std::stable_sort(members.begin(), members.end(),
+                   [](const auto& a, const auto& b) { return a.first.explained > b.first.explained; });
+  SeveralNamed out{{}, members.size() == 2 ? "two mistakes together: " : "three mistakes together: "};
+  for (const auto& [cause, words] : members) {
+    const double percents = 100 * cause.explained;
+    out.words += (out.together.empty() ? "" : out.together.size() + 1 == members.size() ? ", and " : ", ") + words;
+    out.words += percents < 0.1 ? " (less than 0.1 %)" : fmt::format(" ({:.3g} %)", percents);
+    out.together.push_back(cause);
+  }
+  const auto order = std::find_if(out.together.begin(), out.together.end(),
+                                  [](const NamedCause& one) { return one.kind == CauseKind::order; });
+  for (NamedCause& one : out.together)  // whether a factor or an offset came before the order is unknown
+    if (order != out.together.end() && one.motor > 0 &&
+        order->legs[static_cast<std::size_t>(one.motor - 1)] != one.motor)
+      one.motor = 0;
+  return out;
+}
+
+}  // namespace ursula
