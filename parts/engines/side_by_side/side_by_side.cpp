@@ -186,6 +186,7 @@ RecipeResult askMechanism(const Comparison& comparison, Recipe recipe, const Ask
 void askMechanismEngine(const MechanismAlong& along, const Comparison& comparison,
                         const std::vector<MotorMotion>& motions, double moved, EngineResult& out) {
   const Mechanism& mechanism = along.solver().mechanism();
+  out.of_mechanism = true;
   if (out.kind->make_mechanism == nullptr) throw std::runtime_error("it takes no mechanisms");
   const std::unique_ptr<MechanismCalls> engine = out.kind->make_mechanism(mechanism);
   const AskEfforts efforts_of = [&](Recipe recipe, std::size_t k) {
