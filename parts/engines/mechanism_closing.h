@@ -1,12 +1,12 @@
 #pragma once
 
-#include <Eigen/QR>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "model/motor_trajectory.h"
 #include "parts/engines/joint_rows.h"
+#include "parts/engines/ranked_factors.h"
 #include "parts/engines/recipe.h"
 
 namespace ursula {
@@ -55,22 +55,6 @@ class SpeedsOfWelds {
   virtual void startTime(const Rigidity& rigidity);
   /// Moves by a step under forces on the speeds, which are held. Returns the new speeds; the states are the new ones.
   virtual Eigen::VectorXd stepTime(const Eigen::VectorXd& forces);
-};
-
-/// Least squares and least norm by a pivoted QR factorisation; the rank is where the pivots fall the most.
-class RankedFactors {
- public:
-  explicit RankedFactors(const Eigen::MatrixXd& A);
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
-  /// Solves Aᵀ x = b.
-  Eigen::VectorXd solveTransposed(const Eigen::VectorXd& b) const;
-
- private:
-  Eigen::VectorXd solveTransposedOnce(const Eigen::VectorXd& b) const;
-
-  Eigen::MatrixXd A_;  ///< each solution is refined once by it
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
-  std::optional<Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>> deficient_, transposed_;
 };
 
 /// Places a mechanism by Newton's method with the motors' coordinates prescribed, and finds its speeds and their rates

@@ -124,6 +124,26 @@ TEST(EnginesOfMechanisms, knowLoadsAndRedundantClosures) {
   }
 }
 
+/// Without loops the usual call is right, but for maximal coordinates, in which every joint is a constraint.
+TEST(EnginesOfMechanisms, withoutLoopsTheObviousCallIsRight) {
+  MechanismScenario scenario = changed(shippedMechanism("fourbar"), [](MechanismParameters& machine) {
+    machine.motors.clear();
+    std::vector<MechanismJoint> kept;
+    for (const MechanismJoint& joint : machine.joints)
+      if (!joint.closure) kept.push_back(joint);
+    machine.joints = kept;
+    for (const MechanismJoint& joint : kept) machine.motors.push_back(joint.name);
+  });
+  scenario.trajectory = makeFourier(1, 1, std::vector<FourierSeries>(3, {0.1, {0.3}, {}}));
+  for (const EngineResult& engine : foundOf(scenario).engines) {
+    ASSERT_EQ(engine.refused, "") << engine.kind->name;
+    EXPECT_EQ(engine.of(engine.kind->obvious).error < 1e-13, engine.kind->in_tree) << engine.kind->name;
+    EXPECT_LE(engine.of(Recipe::exact).error, 1e-13);
+    EXPECT_THAT(sentence(engine), HasSubstr(engine.kind->loop_call));
+    EXPECT_EQ(sentence(engine).find("is as good") != std::string::npos, engine.kind->in_tree);
+  }
+}
+
 /// MuJoCo has no constraint for a universal joint: only that recipe is without an answer.
 TEST(EnginesOfMechanisms, aRecipeWithoutAnswerSaysWhy) {
   const SideBySide found = foundOf(changed(shippedMechanism("fourbar"), [](MechanismParameters& machine) {

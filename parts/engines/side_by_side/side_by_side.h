@@ -40,7 +40,8 @@ struct TimeSteppingResult {
 struct EngineResult {
   const LoopEngineKind* kind = nullptr;
   std::string version;
-  std::string refused;                      ///< reason why the engine refuses this machine
+  std::string refused;  ///< reason why the engine refuses this machine
+  bool of_mechanism = false;
   std::vector<std::string> cut;             ///< joints at which its tree is cut; of a mechanism
   double gap = 0;                           ///< largest gap of the loops at the poses asked for, m
   std::vector<RecipeResult> recipes;        ///< the exact one first

@@ -87,7 +87,7 @@ std::string timeSteppingRow(const TimeSteppingResult& found) {
 }  // namespace
 
 const char* exactCall(const EngineResult& engine) {
-  return engine.cut.empty() ? engine.kind->exact_call : engine.kind->loop_call;
+  return engine.of_mechanism ? engine.kind->loop_call : engine.kind->exact_call;
 }
 
 std::string worstText(const RecipeResult& found, const SideBySide& in) {
