@@ -58,7 +58,7 @@ void tryCause(const Cause& cause, const Manipulator& machine, const std::vector<
   NamedCause without_spread = *named;
   without_spread.uncertainty.reset();
   try {
-    const EffortsOf efforts = cause.solver(x);
+    const EffortsOf efforts = cause.solver(*cause.scenario, x);
     out.tryOut(cause.words(x, 0), without_spread,
                [&](std::size_t k) -> Eigen::VectorXd { return efforts(motions[k]); });
   } catch (const PoseError&) {

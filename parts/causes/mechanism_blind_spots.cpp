@@ -45,16 +45,16 @@ void addAbsent(const Mechanism& mechanism, BlindSpots& out) {
   add("springs", none(&MechanismJoint::stiffness));
 }
 
-void tryOne(const Tried& tried, Eigen::Index motors, BlindSpots& out) {
+void tryOne(const Tried& tried, const EffortResidual& data, BlindSpots& out) {
   if (tried.steps.size() > 1 || (tried.named.kind == CauseKind::closure && tried.steps.size() > 0)) return;
   const bool is_place = tried.named.parameter.find(".center_of_mass.") != std::string::npos;
   const VectorXd x = (is_place ? 10 : wrong_by) * tried.steps;  // a hundredth of the machine's length
   Fitted mistake{tried.named, tried.detail};
   if (tried.finish) static_cast<void>(tried.finish(x, VectorXd::Zero(x.size()), mistake.named));
   mistake.named.uncertainty.reset();
-  const VectorXd change = tried.change(x);
+  const VectorXd change = tried.change(data, x);
   out.tryOut(inWords(mistake), mistake.named, [&](std::size_t k) -> VectorXd {
-    return out.right(k) + change.segment(static_cast<Eigen::Index>(k) * motors, motors);
+    return out.right(k) + change.segment(static_cast<Eigen::Index>(k) * data.motors, data.motors);
   });
 }
 
@@ -71,7 +71,7 @@ std::vector<BlindSpot> blindSpotsOf(const MechanismScenario& scenario) {
   std::vector<Tried> tried;
   for (const auto add : {addClosureCauses, addJointTerms, addBodyCauses, addJointNumbers, addBodyNumbers})
     add(data, tried);
-  for (const Tried& each : tried) tryOne(each, data.motors, out);
+  for (const Tried& each : tried) tryOne(each, data, out);
   addAbsent(*scenario.mechanism, out);
   const auto name = [&](int motor) {
     return "'" + scenario.mechanism->motor(static_cast<std::size_t>(motor)).name + "'";
