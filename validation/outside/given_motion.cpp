@@ -18,7 +18,7 @@ namespace ursula {
 namespace {
 
 /// Windows in a motion, and the fewest rows in one.
-constexpr int windows = 40, rows_in_window = 8, most_centres = 301;
+constexpr int windows = 20, rows_in_window = 8, most_centres = 301;
 /// What is left open by rows is known for the scenario's motion; another one has up to as many times of it.
 constexpr double other_motion = 4;
 
