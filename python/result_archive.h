@@ -112,7 +112,8 @@ inline void members(Archive& archive, std::shared_ptr<const Scenario>& asked) {
 
 inline void members(Archive& archive, ValidationResult& result) {
   auto& [scenario, kind, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause,
-         causes, terms, blind, words, windows, deviation, effort, timeseries, curves, events, asked, mechanism] = result;
+         causes, terms, blind, words, windows, deviation, effort, timeseries, curves, events, asked, mechanism] =
+      result;
   static_cast<void>(mechanism);  // a picture, which a result that was read does without
   archive(scenario, kind, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause,
           causes, terms, blind, words, windows, deviation, effort, timeseries, curves, events, asked);

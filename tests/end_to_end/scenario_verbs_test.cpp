@@ -14,7 +14,6 @@ namespace ursula {
 namespace {
 
 using testing::ContainsRegex;
-using testing::StartsWith;
 
 TEST(Init, writesAScenarioThatPassesTheCheckAndCanBeComputed) {
   const Program ursula;
