@@ -66,6 +66,11 @@ inline void members(Archive& archive, NamedCause& cause) {
           joint);
 }
 
+inline void members(Archive& archive, BlindSpot& spot) {
+  auto& [mistake, alike, cause, largest] = spot;
+  archive(mistake, alike, cause, largest);
+}
+
 inline void members(Archive& archive, TermError& each) {
   auto& [term, error] = each;
   archive(term, error);
@@ -107,11 +112,11 @@ inline void members(Archive& archive, std::shared_ptr<const Scenario>& asked) {
 
 inline void members(Archive& archive, ValidationResult& result) {
   auto& [scenario, kind, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause,
-         causes, together, terms, words, windows, deviation, effort, timeseries, curves, events, asked, mechanism] =
-      result;
+         causes, together, terms, blind, words, windows, deviation, effort, timeseries, curves, events, asked,
+         mechanism] = result;
   static_cast<void>(mechanism);  // a picture, which a result that was read does without
   archive(scenario, kind, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause,
-          causes, together, terms, words, windows, deviation, effort, timeseries, curves, events, asked);
+          causes, together, terms, blind, words, windows, deviation, effort, timeseries, curves, events, asked);
 }
 
 }  // namespace ursula::python

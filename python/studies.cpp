@@ -2,6 +2,7 @@
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
+#include <ursula/report.h>
 #include <ursula/studies.h>
 
 #include <algorithm>
@@ -68,8 +69,8 @@ std::pair<std::vector<std::string>, std::string> foundIn(const py::object& given
   const bool is_mechanism = py::isinstance<MechanismWithSolver>(given);
   if (!is_mechanism) requireScenario("check", given);
   const BlindSpotFinder* finder = partBlindSpots();
-  const auto blind = [&](const auto* find, const auto& scenario) {
-    return find == nullptr ? "null" : report::blindJsonText(find(scenario));
+  const auto blind = [&](auto find, const auto& scenario) {
+    return find == nullptr ? std::string("null") : report::blindJsonText(find(scenario));
   };
   if (is_mechanism) {
     const auto& mechanism = given.cast<const MechanismWithSolver&>();

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file
-/// Functions beside validation: simulate(), warnings(), partBlindSpots() and picture() of a scenario, mapBlocks(), compare().
+/// Functions beside validation: simulate(), warnings(), partBlindSpots() and picture() of a scenario, mapBlocks(),
+/// compare().
 
 #include "include/ursula/abi.h"
 #include "parts/compare/compare.h"

@@ -139,8 +139,7 @@ std::string viewHtml(const Scenario& scenario) {
   double length = 0;
   for (const Leg& leg : machine.parameters().legs)
     length = std::max(length, (start.p + start.Q * leg.platform_point - leg.base_point).norm());
-  for (int k = 0; k < 3; ++k)
-    sliders.push_back(slider({"xyz"[k]}, "m", along.low(k) - length, along.high(k) + length));
+  for (int k = 0; k < 3; ++k) sliders.push_back(slider({"xyz"[k]}, "m", along.low(k) - length, along.high(k) + length));
   for (const char* angle : {"roll", "pitch", "yaw"}) sliders.push_back(slider(angle, "°", -90, 90));
   const Json view = {
       {"machine",

@@ -30,7 +30,7 @@ function table(id, columns, names) {
     cells.forEach((row, i) =>
       row.forEach((cell, j) => {
         const value = values?.[i]?.[j];
-        cell.textContent = value == null ? "–" : typeof value === "number" ? value.toPrecision(6) : value;
+        cell.textContent = value == null ? "–" : value.toPrecision(6);
         cell.dataset.value = value ?? "";
       }),
     );
@@ -53,10 +53,9 @@ function controls(host, onChange) {
     });
     return { range, exact };
   });
-  const shown = (value) => String(value);
   return {
     values: () => inputs.map(({ exact }) => Number(exact.value)),
-    set: (values) => inputs.forEach(({ range, exact }, k) => (range.value = exact.value = shown(values[k]))),
+    set: (values) => inputs.forEach(({ range, exact }, k) => (range.value = exact.value = values[k])),
   };
 }
 
@@ -110,8 +109,7 @@ function hexapod() {
       const pose = poseOf(values);
       const shown = hexapodAt(machine, pose);
       const motors = machine.motors.map(({ leg, joint }, k) => [shown.legs[leg].coordinates?.[joint], shown.efforts?.[k]]);
-      const least = Math.min(...shown.legs.map(({ margin }) => margin ?? 0));
-      return { ...shown, motors, legs_shown: shown.legs.map(({ coordinates, margin, why }) => [why ? "out of reach" : "in reach", ...(coordinates ?? [null, null, null]), margin]), least, draw: (now) => place(shown, pose, now) };
+      return { ...shown, motors, legs_shown: shown.legs.map(({ coordinates, margin }) => [...(coordinates ?? [null, null, null]), margin]), draw: (now) => place(shown, pose, now) };
     },
   };
 }
@@ -149,7 +147,7 @@ function mechanism() {
 }
 
 const model = is_mechanism ? mechanism() : hexapod();
-const legTable = is_mechanism ? () => {} : table("legs", ["reach", ...coordinateNames(), "margin"], machine.legs.map(({ kind }, k) => `leg ${k + 1}, ${kind}`));
+const legTable = is_mechanism ? () => {} : table("legs", [...coordinateNames(), "margin"], machine.legs.map(({ kind }, k) => `leg ${k + 1}, ${kind}`));
 const motorTable = table("motors", ["coordinate", "effort at rest"], machine.motor_names);
 let render = () => {};
 

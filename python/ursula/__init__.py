@@ -18,6 +18,7 @@ except ImportError as _error:
     raise ImportError("ursula needs NumPy: pip install numpy, or apt install python3-numpy") from _error
 
 from . import _errors, _notebook, _progress
+from ._checked import Checked
 from ._identify import Identified, identify
 from ._ursula import (
     Body,
@@ -55,6 +56,7 @@ __all__ = [
     "Cause",
     "Channel",
     "Check",
+    "Checked",
     "Comparison",
     "Deviation",
     "Finding",
@@ -100,7 +102,7 @@ def _reduced(self, protocol):
 for _each in _classes:
     _each.__module__ = __name__
     _each.__reduce_ex__ = _reduced
-identify.__module__ = __name__
+identify.__module__ = Checked.__module__ = __name__
 _errors.put_in_words(_classes)
 for _each in (check, compare, excite, import_model, map, read_scenario, scenario, simulate, validate):
     globals()[_each.__name__] = _errors.in_words(_each, _each.__name__)

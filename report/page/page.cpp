@@ -36,20 +36,21 @@ std::string sectionsHtml(const std::vector<PageSection>& sections) {
 
 std::string pageHtml(const Page& page) {
   const bool judges = page.verdict != Verdict::not_applicable;
-  return rendered(page_html, {{"kind", page.kind},
-                              {"title", page.title},
-                              {"style", std::string(report_style).append(page.style)},
-                              {"verdict", judges ? name(page.verdict) : "unjudged"},
-                              {"subtitle", page.subtitle},
-                              {"badge", judges ? verdictBadge(page.verdict) : ""},
-                              {"sentence", page.sentence},
-                              {"remarks", page.remarks},
-                              {"figures", keyFiguresHtml(page.figures)},
-                              {"links", linksHtml(page.sections)},
-                              {"sections", sectionsHtml(page.sections)},
-                              {"footer", page.footer},
-                              {"data", page.data.empty() && !page.charts.empty() ? chartData(page.title, page.charts) : page.data},
-                              {"script", std::string(page.script)}}) +
+  return rendered(page_html,
+                  {{"kind", page.kind},
+                   {"title", page.title},
+                   {"style", std::string(report_style).append(page.style)},
+                   {"verdict", judges ? name(page.verdict) : "unjudged"},
+                   {"subtitle", page.subtitle},
+                   {"badge", judges ? verdictBadge(page.verdict) : ""},
+                   {"sentence", page.sentence},
+                   {"remarks", page.remarks},
+                   {"figures", keyFiguresHtml(page.figures)},
+                   {"links", linksHtml(page.sections)},
+                   {"sections", sectionsHtml(page.sections)},
+                   {"footer", page.footer},
+                   {"data", page.data.empty() && !page.charts.empty() ? chartData(page.title, page.charts) : page.data},
+                   {"script", std::string(page.script)}}) +
          "\n";
 }
 

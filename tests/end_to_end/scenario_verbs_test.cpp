@@ -21,7 +21,7 @@ TEST(Init, writesAScenarioThatPassesTheCheckAndCanBeComputed) {
   EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "robot.toml"), HasSubstr("name = \"robot\""));
   const UrsulaRun check = ursula("check robot.toml");
   EXPECT_EQ(check.exit_code, 0) << check.err;
-  EXPECT_EQ(check.out, "robot.toml: the scenario and its motion are valid; 0 warnings\n");
+  EXPECT_THAT(check.out, StartsWith("robot.toml: the scenario and its motion are valid; 0 warnings\nnot shown"));
   EXPECT_EQ(ursula("inverse robot.toml --samples 3").exit_code, 0);
   EXPECT_EQ(ursula("init - --kind URS").out.substr(0, 2), "# ");
   EXPECT_EQ(ursula.files(), 1u);
@@ -68,7 +68,7 @@ TEST_P(InitKind, writesAScenarioThatPassesTheCheckAndCanBeComputed) {
   EXPECT_THAT(text, HasSubstr("\nkind = \"" + kind + "\""));
   const UrsulaRun check = ursula("check robot.toml --picture robot.svg");
   EXPECT_EQ(check.exit_code, 0) << check.err;
-  EXPECT_EQ(check.out, "robot.toml: the scenario and its motion are valid; 0 warnings\n");
+  EXPECT_THAT(check.out, StartsWith("robot.toml: the scenario and its motion are valid; 0 warnings\nnot shown"));
   const UrsulaRun inverse = ursula("inverse robot.toml --samples 3");
   EXPECT_EQ(inverse.exit_code, 0) << inverse.err;
   EXPECT_THAT(inverse.out, HasSubstr(kind == "RUS" ? ",tau_6_Nm\n" : ",tau_6_N\n"));

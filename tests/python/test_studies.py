@@ -75,7 +75,11 @@ def test_check_warns_and_refuses(program, helix, tmp_path):
         with pytest.raises(UserWarning, match="mass"):
             ursula.scenario(odd.read_text())
     assert found and all(each in program("check", odd).stdout for each in found)
-    assert ursula.check(ursula.read_scenario(helix)) == []
+    right = ursula.check(ursula.read_scenario(helix))
+    assert right == []
+    assert {"kind": "missing_term", "term": "friction", "body": "all"} in [one["cause"] for one in right.blind]
+    assert all(one["mistake"] and one["largest"] < 1e-9 for one in right.blind)
+    assert pickle.loads(pickle.dumps(right)).blind == right.blind
     far = ursula.scenario(helix.read_text().replace("radius = 0.2", "radius = 20.0"))
     with pytest.raises(ursula.ScenarioError, match="the motion cannot be made"):
         ursula.check(far)
