@@ -87,8 +87,8 @@ inline void members(Archive& archive, Finding& finding) {
 }
 
 inline void members(Archive& archive, JudgedSubject& subject) {
-  auto& [name, formulation, called_by, map] = subject;
-  archive(name, formulation, called_by, map);
+  auto& [name, formulation, called_by, map, torques] = subject;
+  archive(name, formulation, called_by, map, torques);
 }
 
 /// It is parsed again from its text.
