@@ -100,25 +100,6 @@ TEST(TorqueColumns, takesUnitsThatANameTells) {
   EXPECT_EQ(file.torque_precision[0](0), 5) << "half a unit of the last digit, in N m";
 }
 
-/// Factors from NIST SP 811, appendix B.8.
-TEST(TorqueColumns, takesUnitsOfServosAndPounds) {
-  const TorqueFile file = parseTorqueFile(
-      "t_s,tau_1_kgfcm,tau_2_ozfin,tau 3 "
-      "[lbf·ft],tau_4_lbf_in,tau_5_kgf·m,tau_6_Ncm\n0,1.25,2,3,4,5,6\n1,1,2,3,4,5,6.5\n",
-      "a.csv");
-  const Vector6d expected =
-      (Vector6d() << 1.25 * 9.80665e-2, 2 * 7.061552e-3, 3 * 1.355818, 4 * 0.1129848, 5 * 9.80665, 0.06).finished();
-  for (int k = 0; k < 6; ++k) EXPECT_NEAR(file.torques[0](k), expected(k), 1e-6 * expected(k)) << k;
-  EXPECT_NEAR(file.torque_precision[0](0), 0.005 * 9.80665e-2, 1e-15) << "half a unit of the last digit, in N m";
-  EXPECT_THAT(file.read_as, HasSubstr("tau_1_Nm = 'tau_1_kgfcm' times 0.0980665"));
-  const TorqueFile forces = parseTorqueFile("t,tau_1_Nm,tau_2_Nm,tau_3_lbf,tau_4_kgf,tau_5_ozf,tau_6_mN\n" + plain_rows,
-                                            "a.csv", {}, mixedMotors());
-  EXPECT_NEAR(forces.torques[0](2) / forces.torques[0](3) * 9.80665 / 4.448222, 3.25 / 4.25, 1e-6);
-  EXPECT_THAT(
-      refusal<CsvError>([] { parseTorqueFile("t_s,tau_1_lbf,tau2,tau3,tau4,tau5,tau6\n" + plain_rows, "a.csv"); }),
-      HasSubstr("motor 1 turns and has a torque, expected 'tau_1_Nm' in N m"));
-}
-
 TEST(TorqueColumns, withoutAHeaderOnlyEqualStepsFromZeroAreTheTime) {
   const auto rows = [](const char* t2) {
     return std::string("0 1 2 3 4 5 6\n0.5 1 3 2 4 5 7\n") + t2 + " 1 2 3 4 5 6\n";
@@ -244,6 +225,25 @@ TEST(SlidingMotors, anotherUnitIsRefusedByTheColumnThatIsWanted) {
   const TorqueFile both = parseTorqueFile(
       "tau_3_Nm," + mixed_header + "9," + plain_rows.substr(0, plain_rows.find('\n')), "a.csv", {}, mixedMotors());
   EXPECT_THAT(both.ignored, ElementsAre("tau_3_Nm"));
+}
+
+/// Factors from NIST SP 811, appendix B.8.
+TEST(TorqueColumns, takesUnitsOfServosAndPounds) {
+  const TorqueFile file = parseTorqueFile(
+      "t_s,tau_1_kgfcm,tau_2_ozfin,tau 3 "
+      "[lbf·ft],tau_4_lbf_in,tau_5_kgf·m,tau_6_Ncm\n0,1.25,2,3,4,5,6\n1,1,2,3,4,5,6.5\n",
+      "a.csv");
+  const Vector6d expected =
+      (Vector6d() << 1.25 * 9.80665e-2, 2 * 7.061552e-3, 3 * 1.355818, 4 * 0.1129848, 5 * 9.80665, 0.06).finished();
+  for (int k = 0; k < 6; ++k) EXPECT_NEAR(file.torques[0](k), expected(k), 1e-6 * expected(k)) << k;
+  EXPECT_NEAR(file.torque_precision[0](0), 0.005 * 9.80665e-2, 1e-15) << "half a unit of the last digit, in N m";
+  EXPECT_THAT(file.read_as, HasSubstr("tau_1_Nm = 'tau_1_kgfcm' times 0.0980665"));
+  const TorqueFile pounds = parseTorqueFile("t,tau_1_Nm,tau_2_Nm,tau_3_lbf,tau_4_kgf,tau_5_ozf,tau_6_mN\n" + plain_rows,
+                                            "a.csv", {}, mixedMotors());
+  EXPECT_NEAR(pounds.torques[0](2) / pounds.torques[0](3) * 9.80665 / 4.448222, 3.25 / 4.25, 1e-6);
+  EXPECT_THAT(
+      refusal<CsvError>([] { parseTorqueFile("t_s,tau_1_lbf,tau2,tau3,tau4,tau5,tau6\n" + plain_rows, "a.csv"); }),
+      HasSubstr("motor 1 turns and has a torque, expected 'tau_1_Nm' in N m"));
 }
 
 }  // namespace
