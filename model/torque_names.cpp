@@ -18,7 +18,7 @@ std::optional<int> timePower(const std::string& unit) {
 
 /// A unit of efforts, without what stands between its parts and in small letters, but for mega and milli.
 struct EffortUnit {
-  std::initializer_list<const char*> spellings;
+  std::vector<const char*> spellings;
   EffortKind kind;
   int power;
   double multiplier;

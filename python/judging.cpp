@@ -1,6 +1,7 @@
 #include "python/judging.h"
 
 #include <pybind11/stl.h>
+#include <ursula/studies.h>
 #include <ursula/validate.h>
 
 #include <cmath>
@@ -154,9 +155,15 @@ ValidationResult validatedAny(const py::object& s, const py::object& solver, con
                        quick,
                        progress};
   const py::object given = scenarioOf(s);
-  if (py::isinstance<MechanismWithSolver>(given)) return validated(given.cast<const MechanismWithSolver&>(), asked);
-  requireScenario("validate", given, "ursula.Scenario, ursula.MechanismScenario or a path");
-  return validated(given.cast<const ScenarioWithSolver&>(), asked);
+  const bool is_mechanism = py::isinstance<MechanismWithSolver>(given);
+  if (!is_mechanism) requireScenario("validate", given, "ursula.Scenario, ursula.MechanismScenario or a path");
+  ValidationResult result = is_mechanism ? validated(given.cast<const MechanismWithSolver&>(), asked)
+                                         : validated(given.cast<const ScenarioWithSolver&>(), asked);
+  const BlindSpotFinder* finder = partBlindSpots();
+  if (finder == nullptr) return result;
+  result.blind = is_mechanism ? finder->mechanism(given.cast<const MechanismWithSolver&>().scenario)
+                              : finder->manipulator(given.cast<const ScenarioWithSolver&>().scenario);
+  return result;
 }
 
 }  // namespace

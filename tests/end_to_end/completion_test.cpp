@@ -21,7 +21,7 @@ std::vector<std::string> matches(const std::string& text, const std::string& pat
 
 std::vector<std::string> listedVerbs(const Program& ursula) {
   const std::string help = ursula("--help").out;
-  return matches(help.substr(help.find("Subcommands:")), "\n  ([a-z]+) ");
+  return matches(help.substr(help.find("Judge:")), "\n  ([a-z]+) ");
 }
 
 /// Each `--long` option that begins a line of the help, or follows its short form.

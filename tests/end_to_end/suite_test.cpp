@@ -115,8 +115,8 @@ TEST(SuiteRun, quietlyIsALineForEachThatPasses) {
   ursula.write("b.toml", tooTight("second"));
   const UrsulaRun run = ursula("validate a.toml b.toml --quiet --out out");
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_THAT(run.out, AllOf(StartsWith("first: pass — "), HasSubstr("\nsecond: fail — 1 of "),
-                             HasSubstr("\n  torque.pointwise: ")));
+  EXPECT_THAT(run.out, AllOf(StartsWith("first: pass — "), HasSubstr("\nsecond: fail — 1 of ")));
+  EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 2);
   EXPECT_EQ(run.err, "");
 }
 

@@ -17,7 +17,7 @@ namespace {
 TEST(Terminal, tableListsEveryCheckAndSaysWhatFailed) {
   const Program ursula;
   ursula.write("a.toml", quickScenario() + "[acceptance]\n\"torque.pointwise\" = 1e-30\n");
-  const UrsulaRun run = ursula("validate a.toml --out out");
+  const UrsulaRun run = ursula("validate a.toml --out out --verbose");
   EXPECT_EQ(run.exit_code, 1) << run.err;
   const std::string summary = TemporaryFolder::read(ursula.folder() / "out/summary.json");
   EXPECT_EQ(nlohmann::json::parse(summary).at("verdict"), "fail");

@@ -19,7 +19,7 @@ std::vector<std::string> verbs(const Program& ursula) {
   for (std::string line; std::getline(lines, line);) {
     std::smatch match;
     if (listed && std::regex_search(line, match, std::regex("^  ([a-z]+) "))) out.push_back(match[1]);
-    listed = listed || line == "Subcommands:";
+    listed = listed || line == "Judge:";
   }
   return out;
 }

@@ -83,7 +83,7 @@ std::string replacedLine(const std::string& text, int line, const std::function<
 TEST(TorquesRun, whatInverseWritesPasses) {
   const Program ursula;
   prepare(ursula, "101");
-  const auto run = ursula("validate small.toml --torques tau.csv --out out");
+  const auto run = ursula("validate small.toml --torques tau.csv --out out --verbose");
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
   EXPECT_EQ(ursula("compare out out --tolerance 0").exit_code, 0) << "two folders of results";
   EXPECT_EQ(ursula("compare out tau.csv").exit_code, 3) << "only a part of the channels is common, and all agree";

@@ -107,6 +107,7 @@ TEST(ScenarioAsText, hasTheNumbersOfWhatShips) {
   for (const ScenarioTable& table : scenarioTables()) {
     if (std::string("mtl").find(table.name[0]) == std::string::npos) continue;
     for (const ScenarioKey& key : table.keys) {
+      if (key.name == std::string("legs")) continue;  // written as links of no mass
       EXPECT_TRUE(isWritten(key.name, all)) << table.name << ": " << key.name;
       ++keys;
     }

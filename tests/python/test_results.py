@@ -99,7 +99,7 @@ def test_what_was_not_reached_is_none(quick):
 
 def test_printed_it_is_what_the_terminal_prints(quick):
     wrong, right = judged(quick, 1.01), judged(quick, 1)
-    assert str(wrong).startswith("paper-helix: fail\nverdict: fail — ") and "a factor of 1.01" in str(wrong)
+    assert str(wrong).startswith("paper-helix: fail\nverdict: fail — ") and "every torque scaled by 1.01" in str(wrong)
     assert str(right).startswith("paper-helix: pass\nverdict: pass — ")
 
 
@@ -111,12 +111,12 @@ def test_the_report_is_shown_in_the_browser(quick, monkeypatch):
     monkeypatch.setattr(webbrowser, "open", opened.append)
     judged(quick, 1.01).show()
     page = pathlib.Path(urllib.parse.unquote(urllib.parse.urlsplit(opened[0]).path))
-    assert "a factor of 1.01" in page.read_text(encoding="utf-8")
+    assert "every torque scaled by 1.01" in page.read_text(encoding="utf-8")
 
 
 def test_a_notebook_shows_the_verdict(quick):
     wrong, right = judged(quick, 1.01)._repr_html_(), judged(quick, 1)._repr_html_()
-    assert "a factor of 1.01" in wrong.split("<table>")[0]
+    assert "every torque scaled by 1.01" in wrong.split("<table>")[0]
     assert ">fail</b>" in wrong and "torque.pointwise" in wrong and ">fail</b>" not in right
     named = ursula.scenario(quick.read_text().replace('name = "paper-helix"', 'name = "a-b"'))
     assert "<b>a-b</b>" in ursula.validate(named, time_limit=1e-9)._repr_html_()

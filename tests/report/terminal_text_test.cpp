@@ -101,8 +101,8 @@ torques against the expected ones:
       1  0.03 N·m   2 s   1.001
       2  12.5 N·m   0 s          -12.5 N·m
       3   nan N·m   2 s
-likely cause: of two kinds
 )"));
+  EXPECT_THAT(report::validationText(result, false), HasSubstr("times its limit.\nlikely cause: of two kinds\n\n"));
 }
 
 TEST(TerminalText, saysNothingOfMotorsThatAreRight) {

@@ -79,7 +79,9 @@ TEST(MachineCause, ofOneLegIsNamed) {
       named(trial.said([&](Machine& machine) { exchange(machine.legs[1]); }), CauseKind::parameter);
   EXPECT_EQ(second.parameter, "manipulator.leg.2");
   EXPECT_EQ(second.leg, 2);
-  EXPECT_FALSE(trial.said([&](Machine& machine) { exchange(machine.legs[1]), exchange(machine.legs[4]); }).named);
+  const Diagnosis two = trial.said([&](Machine& machine) { exchange(machine.legs[1]), exchange(machine.legs[4]); });
+  ASSERT_EQ(two.together.size(), 2U) << two.cause;
+  EXPECT_EQ(two.together[0].leg + two.together[1].leg, 7);
   const NamedCause sign =
       named(trial.said([](Machine& machine) { machine.legs[3].base_axis.z() *= -1; }), CauseKind::parameter);
   EXPECT_EQ(sign.parameter, "manipulator.leg.4.base_axis.2");

@@ -305,14 +305,16 @@ TEST_P(MechanismCause, NamesFrictionOfPassiveJoints) {
   EXPECT_EQ(result.cause->term, "friction");
 }
 
-TEST_P(MechanismCause, NamesNoneOfTwoMistakes) {
+/// One of them, or two, would be a wrong name.
+TEST_P(MechanismCause, NamesThreeMistakesTogetherOrNone) {
   const std::size_t body = lastBody(machine.mechanism());
   const ValidationResult result = judgeChanged(machine, [&](auto& p) {
     p.bodies[body].mass *= 1.1;
     p.joints[machine.mechanism().motors().front()].damping += 0.1;
     p.gravity *= 1.01;
   });
-  EXPECT_FALSE(result.cause) << result.cause_words.cause;
+  EXPECT_EQ(result.cause.has_value(), !result.causes_together.empty()) << result.cause_words.cause;
+  if (result.cause) EXPECT_EQ(result.causes_together.size(), 3U) << result.cause_words.cause;
 }
 
 TEST_P(MechanismCause, NamesNoneOfRandomErrors) {

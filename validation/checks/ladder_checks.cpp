@@ -110,7 +110,8 @@ Check judgeSecondEnd(const Ladder& ladder, const WindowedReplay& finest, double 
 
 Check judgeSecond(const Ladder& ladder, const WindowedReplay& finest, double position_scale, const Units& units) {
   if (std::isnan(ladder.second_contradiction))
-    return notApplicable(second_check, "m", "Simbody's own forward dynamics has no answer where links have no mass");
+    return notApplicable(second_check, "m",
+                         "Simbody's own forward dynamics has no answer: links are massless or nearly massless");
   if (ladder.second_contradiction > second_accuracy)
     return notApplicable(
         second_check, "m",

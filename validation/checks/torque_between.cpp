@@ -135,7 +135,7 @@ Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::
   try {
     ask(goldenInstants(duration, count));  // not in time order, so that large deviations appear early
     sortByTime(instants);
-    ask(curvedInstants(instants, instants.size() / 4));
+    ask(curvedInstants(instants, (instants.size() - 2) / 4));
   } catch (const PoseError& error) {
     return notMade(check_name, units.efforts.unit, std::string("no answer: ") + error.what());
   }
