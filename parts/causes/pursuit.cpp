@@ -286,14 +286,12 @@ bool Pursuit::isEachNeeded(const Mistakes& mistakes) const {
   return true;
 }
 
-bool Pursuit::areAlike(const Mistakes& a, const Mistakes& b) const {
-  return std::is_permutation(
-      a.which.begin(), a.which.end(), b.which.begin(), b.which.end(), [this](std::size_t i, std::size_t j) {
-        if (i == j || isOutput(i) || isOutput(j)) return i == j;
-        const NamedCause &one = suspects_[i].named, &other = suspects_[j].named;
-        return one.kind == other.kind && one.term == other.term && one.leg == other.leg && one.motor == other.motor &&
-               one.parameter == other.parameter && one.joint == other.joint;
-      });
+/// Whether both are one mistake, perhaps of other bodies.
+bool Pursuit::areAlike(std::size_t i, std::size_t j) const {
+  if (i == j || isOutput(i) || isOutput(j)) return i == j;
+  const NamedCause &one = suspects_[i].named, &other = suspects_[j].named;
+  return one.kind == other.kind && one.term == other.term && one.leg == other.leg && one.motor == other.motor &&
+         one.parameter == other.parameter && one.joint == other.joint;
 }
 
 std::vector<Mistakes> Pursuit::all() const {
@@ -310,11 +308,17 @@ std::vector<Mistakes> Pursuit::all() const {
 
 std::optional<Mistakes> Pursuit::only() const {
   const std::vector<Mistakes> sets = all();
-  const auto is_rival = [&](const Mistakes& other) {
-    return other.numbers <= sets.front().numbers && !areAlike(sets.front(), other);
-  };
-  if (sets.empty() || std::any_of(sets.begin() + 1, sets.end(), is_rival)) return std::nullopt;
-  return sets.front();
+  if (sets.empty()) return std::nullopt;
+  Mistakes out = sets.front();
+  for (const Mistakes& other : sets) {
+    if (other.numbers > out.numbers) break;
+    if (!std::is_permutation(out.which.begin(), out.which.end(), other.which.begin(), other.which.end(),
+                             [this](std::size_t i, std::size_t j) { return areAlike(i, j); }))
+      return std::nullopt;
+    for (const std::size_t place : out.which)
+      if (std::find(other.which.begin(), other.which.end(), place) == other.which.end()) out.any_body.push_back(place);
+  }
+  return out;
 }
 
 std::optional<SeveralNamed> nameEach(const Pursuit& pursuit, const Mistakes& mistakes, const VectorXd& residual,
@@ -328,6 +332,8 @@ std::optional<SeveralNamed> nameEach(const Pursuit& pursuit, const Mistakes& mis
     std::optional<std::pair<NamedCause, std::string>> named = name(effect);
     if (!named) return std::nullopt;
     named->first.explained = std::clamp(residual.dot(effect) / residual.squaredNorm(), 0.0, 1.0);
+    const auto& any = mistakes.any_body;
+    if (std::find(any.begin(), any.end(), mistakes.which[i]) != any.end()) named->first.body.clear();
     members.push_back(std::move(*named));
   }
   std::stable_sort(members.begin(), members.end(),

@@ -40,8 +40,9 @@ struct Mistakes {
   std::vector<std::size_t> which;  ///< suspects, then outputs, which come after all suspects
   Eigen::VectorXd x;
   int numbers = 0;
-  double unexplained = 1;  ///< ‖left‖ / ‖residual‖
-  double beyond = 1e300;   ///< the largest remainder, in multiples of its limit
+  double unexplained = 1;                  ///< ‖left‖ / ‖residual‖
+  double beyond = 1e300;                   ///< the largest remainder, in multiples of its limit
+  std::vector<std::size_t> any_body = {};  ///< those of `which` that another set has of another body
 };
 
 /// Efforts with some suspects' mistakes at once; nullopt if there are none.
@@ -75,7 +76,7 @@ class Pursuit {
   void extend(const Mistakes& start, std::vector<Mistakes>& out) const;
   std::vector<Mistakes> extended(const std::vector<Mistakes>& smaller) const;
   bool isEachNeeded(const Mistakes& mistakes) const;
-  bool areAlike(const Mistakes& a, const Mistakes& b) const;
+  bool areAlike(std::size_t i, std::size_t j) const;
 
   std::vector<Suspect> suspects_;
   std::vector<OutputMistake> outputs_;  ///< those without a number come first
