@@ -314,7 +314,9 @@ TEST_P(MechanismCause, NamesThreeMistakesTogetherOrNone) {
     p.gravity *= 1.01;
   });
   EXPECT_EQ(result.cause.has_value(), !result.causes_together.empty()) << result.cause_words.cause;
-  if (result.cause) EXPECT_EQ(result.causes_together.size(), 3U) << result.cause_words.cause;
+  if (result.cause) {
+    EXPECT_EQ(result.causes_together.size(), 3U) << result.cause_words.cause;
+  }
 }
 
 TEST_P(MechanismCause, NamesNoneOfRandomErrors) {
