@@ -55,7 +55,8 @@ TEST(Terminal, aScenarioMayComeFromStandardInput) {
   ursula.write("a.toml", quickScenario());
   ursula.write("bad.toml", replaced(quickScenario(), "mass = 500.0", "weight = 500.0"));
   EXPECT_EQ(ursula("inverse - --samples 3 <a.toml").out, ursula("inverse a.toml --samples 3").out);
-  EXPECT_EQ(ursula("check - <a.toml").out, "<stdin>: the scenario and its motion are valid; 0 warnings\n");
+  EXPECT_THAT(ursula("check - <a.toml").out,
+              StartsWith("<stdin>: the scenario and its motion are valid; 0 warnings\n"));
   EXPECT_EQ(ursula("validate - --quiet <a.toml").exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(ursula.folder() / "results/small/summary.json"));
   const UrsulaRun bad = ursula("validate - <bad.toml");
