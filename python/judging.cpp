@@ -161,8 +161,15 @@ ValidationResult validatedAny(const py::object& s, const py::object& solver, con
                                          : validated(given.cast<const ScenarioWithSolver&>(), asked);
   const BlindSpotFinder* finder = partBlindSpots();
   if (finder == nullptr) return result;
-  result.blind = is_mechanism ? finder->mechanism(given.cast<const MechanismWithSolver&>().scenario)
-                              : finder->manipulator(given.cast<const ScenarioWithSolver&>().scenario);
+  if (is_mechanism) {
+    MechanismScenario judged = given.cast<const MechanismWithSolver&>().scenario;
+    setTolerance(asked.tolerance, judged.tolerance);
+    result.blind = finder->mechanism(judged);
+  } else {
+    Scenario judged = given.cast<const ScenarioWithSolver&>().scenario;
+    setTolerance(asked.tolerance, judged);
+    result.blind = finder->manipulator(judged);
+  }
   return result;
 }
 
