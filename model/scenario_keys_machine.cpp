@@ -74,19 +74,20 @@ ScenarioTable leg() {
 }
 
 ScenarioTable link() {
-  return {"manipulator.leg.link",
-          "proximal = { … }, distal = { … }",
-          "A link of a leg: from its first joint along its length to the second.",
-          {{"length", KeyType::number, "m", required_key,
-            "l of the proximal, s of the distal link; of the carriage of PUS for drawing only, and not required",
-            above_zero},
-           {"mass", KeyType::number, "kg", required_key, "0 of a link without mass, whose inertia is zero", not_negative},
-           {"center_of_mass", KeyType::center, "m", required_key,
-            "distance along the link from its first end, of a rod of UPS from the end within the cylinder; or from "
-            "there `[x, y, z]` in the link's frame (of a carriage of PUS [x̂, û, ẑ])"},
-           {"inertia", KeyType::inertia, "kg·m²", required_key,
-            "about the mass centre, in the link's frame, whose third axis is along the link; of a thin rod zero about "
-            "it"}}};
+  return {
+      "manipulator.leg.link",
+      "proximal = { … }, distal = { … }",
+      "A link of a leg: from its first joint along its length to the second.",
+      {{"length", KeyType::number, "m", required_key,
+        "l of the proximal, s of the distal link; of the carriage of PUS for drawing only, and not required",
+        above_zero},
+       {"mass", KeyType::number, "kg", required_key, "0 of a link without mass, whose inertia is zero", not_negative},
+       {"center_of_mass", KeyType::center, "m", required_key,
+        "distance along the link from its first end, of a rod of UPS from the end within the cylinder; or from "
+        "there `[x, y, z]` in the link's frame (of a carriage of PUS [x̂, û, ẑ])"},
+       {"inertia", KeyType::inertia, "kg·m²", required_key,
+        "about the mass centre, in the link's frame, whose third axis is along the link; of a thin rod zero about "
+        "it"}}};
 }
 
 std::vector<ScenarioKey> perCoordinate(const char* turning, const char* sliding) {

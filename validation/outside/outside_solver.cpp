@@ -117,7 +117,7 @@ ValidationResult validateOutside(const Scenario& scenario, const OutsideSolver& 
   const auto asking = std::make_shared<Asking>(solver, options);
   Scenario asked = scenario;
   ValidationOptions silent = options;
-  silent.progress = nullptr;  // the answers take nearly all of the time
+  silent.progress = nullptr;                                                 // the answers take nearly all of the time
   if (!options.asked_to_end) silent.threads = std::max(2, options.threads);  // one works while the solver does
   Subject subject;
   subject.name = solver.name;
