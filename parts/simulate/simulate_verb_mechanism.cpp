@@ -1,12 +1,11 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 
 #include "apps/mechanism.h"
 #include "apps/output.h"
+#include "apps/verbs.h"
 #include "base/csv.h"
-#include "base/text.h"
 #include "model/instants.h"
 #include "parts/simulate/simulate_mechanism.h"
 #include "parts/simulate/simulate_verbs.h"

@@ -79,8 +79,7 @@ TEST(EnginesOfMechanisms, seeWhereAMachineIsAnother) {
   }
 }
 
-/// With all at rest a soft closure asks for no force, and mj_inverse answers as an open tree. So the closures are where
-/// they should be.
+/// At rest soft closures exert no force if they are in their places, so mj_inverse answers as for an open tree.
 TEST(EnginesOfMechanisms, atRestSoftLoopsAreAsOpenOnes) {
   const std::string welded = URSULA_SOURCE "/tests/vectors/loops/fourbar_relpose.toml";
   for (const MechanismScenario& moving :
@@ -144,15 +143,19 @@ TEST(EnginesOfMechanisms, withoutLoopsTheObviousCallIsRight) {
   }
 }
 
-/// MuJoCo has no constraint for a universal joint: only that recipe is without an answer.
-TEST(EnginesOfMechanisms, aRecipeWithoutAnswerSaysWhy) {
-  const SideBySide found = foundOf(changed(shippedMechanism("fourbar"), [](MechanismParameters& machine) {
+MechanismScenario fourbarCutByAUniversalJoint() {
+  return changed(shippedMechanism("fourbar"), [](MechanismParameters& machine) {
     for (MechanismJoint& joint : machine.joints)
       if (joint.closure) {
         joint.kind = JointKind::universal;
         joint.axis = {machine.joints[0].axis[0], Vector3d(machine.joints[0].axis[0].unitOrthogonal())};
       }
-  }));
+  });
+}
+
+/// MuJoCo has no constraint for a universal joint: only that recipe is without an answer.
+TEST(EnginesOfMechanisms, aRecipeWithoutAnswerSaysWhy) {
+  const SideBySide found = foundOf(fourbarCutByAUniversalJoint());
   const EngineResult* engine = engineOf(found, "MuJoCo");
   if (engine == nullptr) GTEST_SKIP() << "without MuJoCo";
   EXPECT_LE(engine->of(Recipe::exact).error, 1e-13);
@@ -209,13 +212,7 @@ TEST(EnginesOfMechanisms, movedMotorsFollowTheEfforts) {
 
 /// Efforts are right all the same.
 TEST(EnginesOfMechanisms, whatCannotBeMovedSaysWhy) {
-  const SideBySide found = foundOf(changed(shippedMechanism("fourbar"), [](MechanismParameters& machine) {
-    for (MechanismJoint& joint : machine.joints)
-      if (joint.closure) {
-        joint.kind = JointKind::universal;
-        joint.axis = {machine.joints[0].axis[0], Vector3d(machine.joints[0].axis[0].unitOrthogonal())};
-      }
-  }));
+  const SideBySide found = foundOf(fourbarCutByAUniversalJoint());
   const EngineResult* engine = engineOf(found, "MuJoCo");
   if (engine == nullptr) GTEST_SKIP() << "without MuJoCo";
   for (const TimeSteppingResult& each : engine->in_time) {
