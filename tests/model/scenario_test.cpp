@@ -61,7 +61,8 @@ TEST(Scenario, hasLegsWithoutMass) {
   for (const char* with : {"length = 1.4", "length = 1.4, mass = 10.0"}) {
     const std::string text = replaced(good_scenario, "[manipulator]\n", "[manipulator]\nlegs = \"massless\"\n");
     const std::string numbers = "length = 1.4, mass = 10.0, center_of_mass = 0.7, inertia = [4.2, 4.2, 0.015]";
-    for (const Leg& leg : parseScenario(replaced(text, numbers, with), "a.toml").manipulator->parameters().legs) {
+    const Scenario scenario = parseScenario(replaced(text, numbers, with), "a.toml");
+    for (const Leg& leg : scenario.manipulator->parameters().legs) {
       EXPECT_THAT(leg.proximal, FieldsAre(1.4, 0, 0, Matrix3d::Zero(), Vector3d::Zero()));
       EXPECT_THAT(leg.distal, FieldsAre(1.3, 0, 0, Matrix3d::Zero(), Vector3d::Zero()));
     }
