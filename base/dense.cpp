@@ -40,6 +40,12 @@ Eigen::MatrixXd rightSingularVectors(const Eigen::MatrixXd& A) {
   return Eigen::JacobiSVD<Eigen::MatrixXd>(A, Eigen::ComputeFullV).matrixV();
 }
 
+Eigen::MatrixXd leastNormSolution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+  return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(A).solve(B);
+}
+
+Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& A) { return A.inverse(); }
+
 Eigen::MatrixXd exponential(const Eigen::MatrixXd& A) { return A.exp(); }
 
 }  // namespace ursula

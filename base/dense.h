@@ -33,6 +33,12 @@ Eigen::VectorXd singularValues(const Eigen::MatrixXd& A);
 /// Returns the whole V of A = UΣVᵀ; the singular values decrease.
 Eigen::MatrixXd rightSingularVectors(const Eigen::MatrixXd& A);
 
+/// Returns the solution of A X = B, n × p for A of m × n and B of m × p: by least squares, and of least norm.
+Eigen::MatrixXd leastNormSolution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
+/// Returns A⁻¹ of an A of n × n that is not singular; of a singular one its numbers are not finite.
+Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& A);
+
 /// Returns exp(A) by scaling, squaring and Padé's approximants.
 Eigen::MatrixXd exponential(const Eigen::MatrixXd& A);
 

@@ -1,15 +1,16 @@
 #include "nocsolver/loops/complement.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+
+#include "base/dense.h"
 
 namespace ursula::loops {
 
 GapRank rankByGap(const MatrixXd& A) {
   GapRank out;
   if (A.rows() == 0 || A.cols() == 0) return out;
-  const VectorXd sigma = Eigen::JacobiSVD<MatrixXd>(A).singularValues();
+  const VectorXd sigma = singularValues(A);
   const double largest = sigma(0);
   if (!(largest > 0)) return out;
   // Values below rounding are one zero; the full rank competes with what lies below the last value.

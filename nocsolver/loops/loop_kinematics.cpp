@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.h"
 #include "nocsolver/loops/loop_solver_internal.h"
 
 namespace ursula {
@@ -36,7 +37,7 @@ void LoopSolver::Impl::stopSpins(const Frames& frames, const PassiveRates& solve
     if (accelerations) spin.row(row).array() += spins[i].weight * axis.dot(frame.alpha);
   }
   const MatrixXd own = S * Z;
-  u -= Z * own.completeOrthogonalDecomposition().solve(spin);  // (d)
+  u -= Z * leastNormSolution(own, spin);  // (d)
 }
 
 void LoopSolver::Impl::complement(const Frames& frames, const MatrixXd& G, const PassiveRates& solver,

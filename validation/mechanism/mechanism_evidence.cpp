@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/dense.h"
 #include "model/instants.h"
 #include "simbody/simbody_mechanism.h"
 #include "validation/subject/asked_instants.h"
@@ -146,7 +146,7 @@ MechanismSample nocAt(const LoopMotion& motion, double t, LoopWork& work) {
   out.noc = motion.inverseDynamics(t, work);
   out.scale = motion.solver().effortScale(work);
   out.condition = 1 / work.reciprocal_condition;
-  out.inverse_inertia = motion.solver().inertia(work).inverse();
+  out.inverse_inertia = inverseOf(motion.solver().inertia(work));
   return out;
 }
 
@@ -186,7 +186,7 @@ void askBetween(const MechanismSubject& subject, const Deadline& deadline, Mecha
 /// What the rounding of a simulator's accelerations makes of efforts.
 MotorEfforts roundedAccelerations(const MechanismEvidence& evidence, const MechanismSample& sample) {
   const MotorEfforts accelerations = (2 * evidence.level + evidence.acceleration_level) * evidence.response(sample);
-  return sample.inverse_inertia.inverse().cwiseAbs() * accelerations;
+  return inverseOf(sample.inverse_inertia).cwiseAbs() * accelerations;
 }
 
 void setCover(const std::vector<double>& instants, double duration, MechanismEvidence& out) {

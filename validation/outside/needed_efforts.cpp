@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <limits>
 
+#include "base/dense.h"
+
 namespace ursula {
 namespace {
 
@@ -39,7 +41,7 @@ std::vector<Eigen::VectorXd> neededEfforts(const std::vector<WantedState>& state
   std::vector<std::size_t> open;
   for (std::size_t k = 0; k < states.size(); ++k) {
     searches[k].efforts = states[k].efforts;
-    searches[k].mobility = states[k].inertia.inverse();
+    searches[k].mobility = inverseOf(states[k].inertia);
     open.push_back(k);
   }
   const Eigen::Index n = states.empty() ? 0 : states.front().efforts.size();

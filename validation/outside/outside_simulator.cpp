@@ -1,6 +1,5 @@
 #include "validation/outside/outside_simulator.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <exception>
 #include <memory>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "base/deadline.h"
+#include "base/dense.h"
 #include "model/instants.h"
 #include "nocsolver/loops/loop_solver.h"
 #include "validation/checks/families.h"
@@ -86,7 +86,7 @@ class AskedSimulator {
     wanted << motion.omega_dot, motion.p_ddot;
     scale << Vector3d::Constant(length), Vector3d::Ones();
     out.wanted = wanted, out.efforts = efforts, out.scale = scale;
-    out.inertia = Matrix6d(mobility.inverse());
+    out.inertia = inverseOf(mobility);
     return out;
   }
 
@@ -114,7 +114,7 @@ Subject subjectOf(const std::shared_ptr<AskedSimulator>& asked, const JudgedSubj
   out.torques = [asked, length](const Motion<double>& motion) {
     std::vector<WantedState> states = {asked->wanted(motion, length)};
     states.front().rounding =
-        1e-12 * states.front().inertia.inverse().cwiseAbs().maxCoeff() * states.front().efforts.cwiseAbs().maxCoeff();
+        1e-12 * inverseOf(states.front().inertia).cwiseAbs().maxCoeff() * states.front().efforts.cwiseAbs().maxCoeff();
     return asked->efforts({motion}, states, 0).front();
   };
   out.answers = [] { return std::vector<Answered>(); };
@@ -234,7 +234,7 @@ class MechanismInSimulator {
       MechanismQuestion& state = states[k];
       wanted.push_back(right(state.motion));
       more.push_back(changed ? changeOf(wanted.back().efforts, k) : MotorEfforts::Zero(state.motion.q.size()));
-      wanted.back().wanted += wanted.back().inertia.inverse() * more.back();
+      wanted.back().wanted += inverseOf(wanted.back().inertia) * more.back();
       wanted.back().efforts += more.back();
       state.motion.qddot.setZero();
       for (LoopSolver::JointValue& joint : state.joints) joint.acceleration = 0;
@@ -260,7 +260,7 @@ class MechanismInSimulator {
     out.wanted = motion.qddot;
     out.scale = Eigen::VectorXd::Ones(motion.qddot.size());
     const double terms = along_.solver().effortScale(work_).cwiseAbs().maxCoeff();
-    out.rounding = 1e-13 * out.inertia.inverse().cwiseAbs().maxCoeff() * std::max(terms, largest_);
+    out.rounding = 1e-13 * inverseOf(out.inertia).cwiseAbs().maxCoeff() * std::max(terms, largest_);
     return out;
   }
 

@@ -46,7 +46,7 @@ struct Method {
         values(i, k) = legendre(k, node(i));
         integrals(i, k) = integralOfLegendre(k, node(i));
       }
-    coefficient = Eigen::MatrixXd(values).inverse();
+    coefficient = inverseOf(values);
     A = integrals * coefficient;
     const EigenPairs pairs = eigenPairs(A).value();
     eigenvalues = pairs.values;
