@@ -191,5 +191,42 @@ TEST(MechanismDigits, countAsPrinted) {
   EXPECT_EQ(judged(scenario, rounded).verdict, Verdict::fail);
 }
 
+/// Keeps the rows from `first` to `last`, each `step`-th.
+GivenEfforts rowsOf(const GivenEfforts& all, std::size_t first, std::size_t last, std::size_t step = 1) {
+  GivenEfforts out = all;
+  out.t.clear(), out.efforts.clear(), out.precision.clear();
+  for (std::size_t i = first; i <= last; i += step) {
+    out.t.push_back(all.t[i]);
+    out.efforts.push_back(all.efforts[i]);
+    out.precision.push_back(all.precision[i]);
+  }
+  return out;
+}
+
+/// Right rows say nothing of what lies beyond or far between them.
+TEST(MechanismCover, ofAPartOfTheMotionIsInconclusive) {
+  MechanismScenario scenario = loopScenario("fourbar");
+  const GivenEfforts all = effortsOf(scenario);
+  const double largest = judged(scenario, all).deviation->largest_effort;
+  GivenEfforts holed = rowsOf(all, 0, 6);
+  const GivenEfforts end = rowsOf(all, 94, 100);
+  holed.t.insert(holed.t.end(), end.t.begin(), end.t.end());
+  holed.efforts.insert(holed.efforts.end(), end.efforts.begin(), end.efforts.end());
+  holed.precision.insert(holed.precision.end(), end.precision.begin(), end.precision.end());
+  for (const double relative : {0.0, 0.01}) {
+    if (relative > 0) scenario.tolerance = EffortTolerance{relative, 0};
+    for (const GivenEfforts& part : {rowsOf(all, 30, 30), rowsOf(all, 0, 100, 100), rowsOf(all, 0, 50), holed}) {
+      const ValidationResult result = judged(scenario, part);
+      EXPECT_EQ(result.verdict, Verdict::inconclusive) << part.t.size();
+      const Check* between = findCheck(result.checks, "torque.between");
+      ASSERT_NE(between, nullptr);
+      EXPECT_EQ(between->reason, Reason::not_covered);
+      EXPECT_NEAR(result.deviation->largest_effort, largest, 0.01 * largest) << "of the whole motion";
+    }
+    EXPECT_EQ(judged(scenario, rowsOf(all, 0, 99)).verdict, Verdict::pass) << "the last row is one step early";
+    EXPECT_EQ(judged(scenario, rowsOf(all, 0, 100, 5)).verdict, Verdict::pass) << "21 rows";
+  }
+}
+
 }  // namespace
 }  // namespace ursula

@@ -180,6 +180,19 @@ std::vector<Check> judgeWindows(const Judge& judge) {
   return out;
 }
 
+/// What lies between the rows of a file, or beyond them, is not judged.
+Check judgeCover(const MechanismEvidence& evidence) {
+  const Cover& cover = evidence.cover;
+  const double duration = evidence.scenario->trajectory->duration();
+  const std::string why = cover.is_cut ? fmt::format("the rows cover {:.6g} to {:.6g} s of a motion from 0 to {:.6g} s",
+                                                     cover.begin, cover.end, duration)
+                                       : fmt::format(
+                                             "the rows are up to {:.6g} s apart; rows so far apart tell no more of the "
+                                             "efforts between than their mean does",
+                                             cover.widest_gap);
+  return notJudgeable(Reason::not_covered, "torque.between", std::nan(""), std::nan(""), evidence.unit, "", why);
+}
+
 }  // namespace
 
 std::vector<Check> judgeMechanism(const MechanismEvidence& evidence, const MechanismSubject& subject) {
@@ -202,6 +215,7 @@ std::vector<Check> judgeMechanism(const MechanismEvidence& evidence, const Mecha
     between.gap = 2 * evidence.scenario->trajectory->duration() / static_cast<double>(evidence.between.size());
     out.push_back(between);
   }
+  if (!evidence.cover.isWhole()) out.push_back(judgeCover(evidence));
   out.push_back(judgeAccelerations(judge, "acceleration.pointwise",
                                    "accelerations of the motors in Simbody under the efforts, commanded state",
                                    &S::acceleration, [](const S& s) { return s.motion.qddot; }));

@@ -189,10 +189,15 @@ MotorEfforts roundedAccelerations(const MechanismEvidence& evidence, const Mecha
   return inverseOf(sample.inverse_inertia).cwiseAbs() * accelerations;
 }
 
-void setCover(const std::vector<double>& instants, double duration, MechanismEvidence& out) {
+void setCover(const MechanismSubject& subject, const std::vector<double>& instants, MechanismEvidence& out) {
+  // Windows of another program's motion lie within it.
+  if (subject.given && subject.given->derived_from.empty()) {
+    out.cover = coverOf(instants, *out.motion, out.efforts_in);
+    out.largest = std::max(out.largest, out.cover.largest);
+    return;
+  }
   for (std::size_t i = 1; i < instants.size(); ++i)
-    out.widest_gap = std::max(out.widest_gap, instants[i] - instants[i - 1]);
-  out.covers = !instants.empty() && instants.front() <= 1e-9 * duration && instants.back() >= duration * (1 - 1e-9);
+    out.cover.widest_gap = std::max(out.cover.widest_gap, instants[i] - instants[i - 1]);
 }
 
 }  // namespace
@@ -226,8 +231,7 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
     out.largest = std::max(out.largest, sample.noc.cwiseProduct(out.efforts_in).cwiseAbs().maxCoeff());
     out.samples.push_back(std::move(sample));
   }
-  setCover(instants, motion.trajectory().duration(), out);
-  if (subject.given && !subject.given->derived_from.empty()) out.covers = true;  // windows lie within the motion
+  setCover(subject, instants, out);
   if (!subject.given && subject.between > 0) askBetween(subject, deadline, out);
   measureLevels(out);
   if (subject.gives_accelerations)

@@ -108,6 +108,21 @@ struct MechanismWindow {
   double order_gain = 0;  ///< how much finer steps moved the end, m
 };
 
+/// What of the motion the rows of a file tell.
+struct Cover {
+  double begin = 0, end = 0;  ///< first and last row, s
+  double widest_gap = 0;      ///< between rows, and from the ends of the motion to them, s
+  double largest = 0;         ///< the NOC's effort along the whole motion, in the shown unit
+  bool is_cut = false;        ///< an end of the motion lies farther from the rows than these from each other
+  /// Straight lines through rows as far apart as the widest gap miss the right efforts by less than their mean does, by
+  /// root mean square, wherever such rows begin. Rows that are farther apart say nothing of what is between them.
+  bool is_resolved = true;
+  bool isWhole() const { return !is_cut && is_resolved; }
+};
+
+/// Returns what rows at these increasing instants tell of the motion. A motion of constant efforts is whole by one row.
+Cover coverOf(const std::vector<double>& rows, const LoopMotion& motion, const MotorEfforts& efforts_in);
+
 struct MechanismEvidence {
   const MechanismScenario* scenario = nullptr;
   const LoopMotion* motion = nullptr;
@@ -123,8 +138,7 @@ struct MechanismEvidence {
   double largest = 0;             ///< effort along the motion, in the shown unit
   std::string unit;               ///< "N m", or "N" if all motors slide
   std::string not_replayed, out_of_time;
-  bool covers = true;  ///< the given instants cover the motion
-  double widest_gap = 0;
+  Cover cover;  ///< by a file's rows; of other subjects only the widest gap
 
   /// The growth of rounding in an effort of motor k with pose and machine, in the shown unit.
   double shape(const MechanismSample& sample, Eigen::Index k) const;

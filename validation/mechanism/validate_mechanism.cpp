@@ -99,7 +99,7 @@ std::optional<EffortDeviation> deviationOf(const MechanismEvidence& evidence, co
     any = true;
   }
   if (!any) return std::nullopt;
-  out.seen_for = evidence.widest_gap;
+  out.seen_for = evidence.cover.widest_gap;
   if (const Check* between = findCheck(checks, "torque.between"); between != nullptr && std::isfinite(between->gap))
     out.seen = between->missed, out.seen_for = between->gap;
   out.unit = evidence.unit;
@@ -262,7 +262,7 @@ ValidationResult validateMechanism(const MechanismScenario& scenario, const Mech
   listEveryCheck([&](const CheckRow& check) { return whyNotOf(check, subject, evidence); }, evidence.out_of_time,
                  result);
   judgeByTolerance(scenario.tolerance, scenario.acceptance,
-                   evidence.covers ? 0 : std::numeric_limits<double>::infinity(), result);
+                   evidence.cover.isWhole() ? 0 : std::numeric_limits<double>::infinity(), result);
   judgeByUser(scenario.acceptance, result);
   if (!evidence.samples.empty()) addSeries(evidence, result);
   addFacts(along, subject, evidence, result);
