@@ -57,6 +57,7 @@ std::string limitShareText(const Check& check) {
     return "";
   if (std::isinf(share)) return "beyond";
   if (share > 1) return share < 1000 ? fmt::format("{:.3g} times", share) : fmt::format("{:.1e} times", share);
+  if (share >= 0.1) return fmt::format("{:.0f} %", 100 * share);
   return share == 0 ? "0 %" : share < 1e-4 ? "< 0.01 %" : fmt::format("{:.2g} %", 100 * share);
 }
 
