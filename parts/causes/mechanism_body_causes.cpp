@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "parts/causes/mechanism_tried.h"
 
@@ -77,6 +79,8 @@ const BodyTerm terms[] = {
      [](const BodyView& b) { return wrench(none, b.mass * b.a_bias); }},
     {CauseKind::missing_term, "centripetal", "what velocities make of the angular accelerations",
      [](const BodyView& b) { return wrench(b.I * b.alpha_bias, none); }},
+    {CauseKind::missing_term, "centripetal", "that of the mass centres about the bodies' origins",
+     [](const BodyView& b) { return wrench(none, b.mass * b.omega.cross(b.omega.cross(b.from_origin))); }},
     {CauseKind::missing_term, "inertia", "mass, inertia and weight",
      [](const BodyView& b) { return wrench(b.I * b.alpha + b.gyroscopic(), b.mass * (b.a - b.g)); }},
     {CauseKind::missing_term, "inertia", "forces and moments of inertia, without the weight",
@@ -113,6 +117,10 @@ const BodyTerm mistakes[] = {
      [](const BodyView& b) { return wrench(b.I * (b.own.transpose() * b.alpha) + b.gyroscopic(), none); }},
     {CauseKind::frame, "angular_acceleration", "in the axes of the file's pose, with a tensor in the world's",
      [](const BodyView& b) { return wrench(b.I * (b.R.transpose() * b.alpha) + b.gyroscopic(), none); }},
+    {CauseKind::reference_point, "gravity", "at the body's origin instead of its mass centre",
+     [](const BodyView& b) {
+       return Vector6d(momentOf(b.I, b.omega, b.alpha) + wrench(b.from_origin.cross(b.mass * b.g), none));
+     }},
     {CauseKind::reference_point, "inertia", "about the body's origin instead of its mass centre",
      [](const BodyView& b) { return momentOf(b.I + pointTensor(b), b.omega, b.alpha); }},
     {CauseKind::reference_point, "inertia", "moved to the mass centre twice",
@@ -134,6 +142,45 @@ std::vector<std::size_t> heavyBodies(const Mechanism& mechanism) {
     const MechanismBody& body = mechanism.bodies()[b];
     if (!body.fixed && (body.mass != 0 || !body.inertia.isZero(0))) out.push_back(b);
   }
+  return out;
+}
+
+/// What velocities make of the rotors' accelerations, as the motors feel it.
+VectorXd velocityProductsOfRotors(const EffortResidual& data) {
+  return data.each([&](const Instant& at) -> VectorXd {
+    VectorXd out = VectorXd::Zero(data.motors);
+    for (const Coordinate& c : at.coordinates)
+      out += c.row.transpose() * data.mechanism->joints()[c.joint].rotor_inertia *
+             (c.acceleration - c.row.dot(at.motion.qddot));
+    return out;
+  });
+}
+
+/// Bodies of one mass, as the rods of a delta: at least two, and not all.
+std::vector<std::vector<std::size_t>> alikeAmong(const Mechanism& mechanism, const std::vector<std::size_t>& bodies) {
+  constexpr double same = 1e-9;
+  const auto areAlike = [&](std::size_t a, std::size_t b) {
+    const double mass = mechanism.bodies()[a].mass;
+    return std::abs(mechanism.bodies()[b].mass - mass) <= same * mass;
+  };
+  std::vector<std::vector<std::size_t>> groups;
+  for (const std::size_t b : bodies) {
+    const auto group =
+        std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return areAlike(g.front(), b); });
+    if (group == groups.end())
+      groups.push_back({b});
+    else
+      group->push_back(b);
+  }
+  groups.erase(std::remove_if(groups.begin(), groups.end(),
+                              [&](const auto& g) { return g.size() < 2 || g.size() == bodies.size(); }),
+               groups.end());
+  return groups;
+}
+
+std::string namesOf(const Mechanism& mechanism, const std::vector<std::size_t>& bodies) {
+  std::string out;
+  for (const std::size_t b : bodies) out += (out.empty() ? "" : ", ") + mechanism.bodies()[b].name;
   return out;
 }
 
@@ -188,7 +235,21 @@ void addBodyCauses(const EffortResidual& data, std::vector<Tried>& out) {
       if (bodies.size() == 1) break;
       named.body = data.mechanism->bodies()[b].name;
       addFixed(out, named, partOf({b}, is_mistake ? 1 : -1), term.detail);
+      if (std::string(term.term) != "gyroscopic") continue;
+      NamedCause sign = named;
+      sign.kind = CauseKind::sign;
+      addFixed(out, sign, partOf({b}, -2), term.detail);
     }
+    for (const std::vector<std::size_t>& group : alikeAmong(*data.mechanism, bodies)) {
+      named.body = namesOf(*data.mechanism, group);
+      addFixed(out, named, partOf(group, is_mistake ? 1 : -1), term.detail);
+    }
+    if (std::string(term.term) != "coriolis" || velocityProductsOfRotors(data).isZero(0)) return;
+    named.body = "all";
+    const auto of_bodies = partOf(bodies, 1);
+    addScaledTerm(
+        named, [of_bodies](const EffortResidual& at) { return VectorXd(of_bodies(at) + velocityProductsOfRotors(at)); },
+        "every product of velocities, those of the rotors too", out);
   };
   for (const BodyTerm& term : terms) addAll(term, false);
   for (const BodyTerm& mistake : mistakes) addAll(mistake, true);

@@ -104,8 +104,8 @@ NamedCause withShare(const Fitted& one) {
 
 std::string percentOf(const Fitted& one) {
   const double explained = 1 - one.unexplained * one.unexplained;
-  if (one.unexplained < 1e-6) return "more than 99.9999 % of the deviation";
-  return fmt::format("{:.4f} % of the deviation", 100 * std::max(0.0, explained));
+  if (explained > 0.999999) return "more than 99.9999 % of the deviation";
+  return fmt::format("{:.{}f} % of the deviation", 100 * std::max(0.0, explained), explained > 0.99 ? 4 : 0);
 }
 
 std::string othersIn(const std::vector<const Fitted*>& others) {
@@ -176,12 +176,12 @@ bool nameWindow(const EffortResidual& data, ValidationResult& result) {
   return true;
 }
 
-/// Lists what explains most of the deviation.
+/// Lists what explains most of the deviation. Several fitted numbers explain much of anything, so they are no part.
 void listParts(std::vector<Fitted> fitted, const EffortResidual& data, ValidationResult& result) {
   fitted.erase(std::remove_if(fitted.begin(), fitted.end(),
                               [&](const Fitted& one) {
                                 return one.unexplained > worth_listing || one.of_found > worth_listing ||
-                                       10 * one.numbers > data.noc.size();
+                                       one.numbers > 1 || 10 * one.numbers > data.noc.size();
                               }),
                fitted.end());
   std::stable_sort(fitted.begin(), fitted.end(),

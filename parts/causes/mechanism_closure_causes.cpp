@@ -36,6 +36,20 @@ class OpenTree {
     return out;
   }
 
+  /// The same by M u̇ alone: without the products of velocities in the tree.
+  VectorXd forcesOfAccelerations(const Instant& at) const {
+    VectorXd out = loadsOf(mechanism_, at);
+    const VectorXd u_dot = tree_.accelerations(at);
+    for (std::size_t b = 0; b < mechanism_.bodies().size(); ++b) {
+      const MatrixXd J = tree_.jacobian(at, b);
+      BodyState state = at.work.bodies[b];
+      state.twist.setZero();
+      state.twist_rate = J * u_dot;
+      out += J.transpose() * wrenchOf(mechanism_, state, mechanism_.bodies()[b]);
+    }
+    return out;
+  }
+
   /// M of the tree.
   MatrixXd inertia(const Instant& at) const {
     const auto n = static_cast<Eigen::Index>(at.coordinates.size());
@@ -57,6 +71,14 @@ class OpenTree {
                                   static_cast<Eigen::Index>(mechanism_.motorCount()));
     for (std::size_t c = 0; c < at.coordinates.size(); ++c)
       if (tree_.holds(at.coordinates[c].joint)) out.row(static_cast<Eigen::Index>(c)) = at.coordinates[c].row;
+    return out;
+  }
+
+  /// Nᵀ f, with the ratios N of all joints' rates to the motors' at an instant.
+  VectorXd byRatios(const Instant& at, const VectorXd& f) const {
+    VectorXd out = VectorXd::Zero(static_cast<Eigen::Index>(mechanism_.motorCount()));
+    for (std::size_t c = 0; c < at.coordinates.size(); ++c)
+      out += at.coordinates[c].row.transpose() * f(static_cast<Eigen::Index>(c));
     return out;
   }
 
@@ -150,6 +172,11 @@ void addClosureCauses(const EffortResidual& data, std::vector<Tried>& out) {
              return open.atMotors(at, MN * (N.transpose() * MN).ldlt().solve(right()));
            }),
            "weighted by the inverse of the tree's mass matrix");
+  addFixed(out, {CauseKind::closure, "constant"},
+           change([&](const Instant& at) { return open.byRatios(data.instants.front(), open.forces(at)); }));
+  addFixed(out, {CauseKind::missing_term, "coriolis", "all"},
+           change([&](const Instant& at) { return open.byRatios(at, open.forcesOfAccelerations(at)); }),
+           "in the tree; the joints' accelerations are right");
   addSoft(data, open, left_open, out);
 }
 

@@ -31,6 +31,8 @@ const JointTerm joint_terms[] = {
     {"rotor_inertia", "",
      [](const MechanismJoint& j, const Coordinate& c) { return j.rotor_inertia * c.acceleration; }},
     {"springs", "", springOf},
+    {"springs", "their rest positions",
+     [](const MechanismJoint& j, const Coordinate&) { return hasSpring(j) ? -j.stiffness * j.spring_reference : 0; }},
 };
 
 using Joints = std::vector<std::size_t>;
@@ -83,6 +85,31 @@ void addTerm(const EffortResidual& data, const JointTerm& term, std::vector<Trie
     named.body = "motors", addFixed(out, named, termOf(motors, term, -1), term.detail);
 }
 
+/// The friction of a passive joint, added to a motor's effort as it is: without the joint's Jacobian.
+void addDirectFriction(const EffortResidual& data, std::vector<Tried>& out) {
+  const Mechanism& mechanism = *data.mechanism;
+  for (std::size_t j = 0; j < mechanism.joints().size(); ++j) {
+    const MechanismJoint& joint = mechanism.joints()[j];
+    if (isMotor(mechanism, j) || !hasSpring(joint) || (joint.damping == 0 && joint.friction == 0)) continue;
+    for (Eigen::Index motor = 0; motor < data.motors; ++motor) {
+      NamedCause named{CauseKind::frame, "friction"};
+      named.joint = joint.name;
+      named.motor = static_cast<int>(motor) + 1;
+      addFixed(out, named, data.each([&](const Instant& at) -> VectorXd {
+        VectorXd change = VectorXd::Zero(data.motors);
+        for (const Coordinate& c : at.coordinates) {
+          if (c.joint != j) continue;
+          const double friction = dampingOf(joint, c) + coulombOf(joint, c);
+          change -= c.row.transpose() * friction;
+          change(motor) += friction;
+        }
+        return change;
+      }),
+               "added to the motor's effort without the joint's Jacobian");
+    }
+  }
+}
+
 /// A number of a joint to which the efforts are proportional.
 struct JointNumber {
   const char* key;
@@ -130,6 +157,7 @@ void addNumber(const EffortResidual& data, std::size_t j, const JointNumber& num
 
 void addJointTerms(const EffortResidual& data, std::vector<Tried>& out) {
   for (const JointTerm& term : joint_terms) addTerm(data, term, out);
+  addDirectFriction(data, out);
 }
 
 void addJointNumbers(const EffortResidual& data, std::vector<Tried>& out) {

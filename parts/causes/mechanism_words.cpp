@@ -85,6 +85,7 @@ std::string closureWords(const std::string& term) {
     return "the velocity-product term of the closures (J̇v) is left out of the passive joints' accelerations";
   if (term == "least_squares")
     return "the efforts are shared among all joints by least squares, and read at the motors";
+  if (term == "constant") return "the loops' transmission is constant: N of the first instant at every instant";
   return "soft constraints of the loops, read at the motors: the loops left open, with forces in proportion to J̇v of "
          "each closure";
 }
@@ -137,7 +138,8 @@ std::string causeWords(const NamedCause& cause) {
     case CauseKind::frame:
       return termWords(cause.term) + ofOwner(cause) + " is in the wrong frame";
     case CauseKind::reference_point:
-      return (cause.term.empty() ? "the mass centre" : "the inertia") + ofOwner(cause) + " is about the wrong point";
+      return (cause.term.empty() ? "the mass centre" : termWords(cause.term)) + ofOwner(cause) +
+             " is about the wrong point";
     case CauseKind::offset:
       return "a constant offset" + ofOwner(cause) +
              (cause.found ? fmt::format(" of {:.6g} {}", *cause.found, cause.unit) : "");
