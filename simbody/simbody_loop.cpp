@@ -55,7 +55,31 @@ void SimbodyLoop::Impl::setPlatformPose(const Motion<double>& motion) {
   mechanism.platform.setQToFitTransform(state, ~X_GF * X_GB * mechanism.platform.getOutboardFrame(state));
 }
 
+// calcG takes a sweep of the tree for each coordinate. A ball joins one leg to the platform, so one sweep serves a
+// joint of all legs, and every number has the bits of calcG's.
+Eigen::MatrixXd SimbodyLoop::Impl::jacobianOfBalls() const {
+  const int platform = mechanism.platform.getFirstUIndex(state);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * legCount(), state.getNU());
+  SimTK::Vector bias, rates(state.getNU()), errors;
+  matter.calcBiasForMultiplyByG(state, bias);
+  for (int joint = 0; joint < 3; ++joint) {
+    rates.setToZero();
+    for (int leg = 0; leg < legCount(); ++leg) rates[indexOf(joint, leg)] = 1;
+    matter.multiplyByG(state, rates, bias, errors);
+    for (int leg = 0; leg < legCount(); ++leg)
+      out.block<3, 1>(3 * leg, indexOf(joint, leg)) = mapped(errors).segment<3>(3 * leg);
+  }
+  for (int k = platform; k < platform + 6; ++k) {
+    rates.setToZero();
+    rates[k] = 1;
+    matter.multiplyByG(state, rates, bias, errors);
+    out.col(k) = mapped(errors);
+  }
+  return out;
+}
+
 Eigen::MatrixXd SimbodyLoop::Impl::constraintJacobian() const {
+  if (topology == Topology::ball_per_leg && mechanism.rotors.empty()) return jacobianOfBalls();
   SimTK::Matrix G;
   matter.calcG(state, G);
   Eigen::MatrixXd out(G.nrow(), G.ncol());

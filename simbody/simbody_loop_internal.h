@@ -107,6 +107,8 @@ struct SimbodyLoop::Impl {
   /// Returns [G; J]: the constraint Jacobian over the platform's frame Jacobian, nu × nu.
   Eigen::MatrixXd constraintsAndPlatform() const;
   Eigen::MatrixXd constraintJacobian() const;
+  /// The same, faster; for six balls and no rotor.
+  Eigen::MatrixXd jacobianOfBalls() const;
   /// Replaces the forces in the scratch by those other than the motors', from the state's velocities.
   void applyForces();
   /// The Jacobian of the last placed state.

@@ -1,6 +1,6 @@
 # Installs into an empty folder, builds the examples there against the installed files, with warnings as errors even in
-# our headers, and runs them. cmake -D BUILD=… -D CXX=… -D GENERATOR=… -D EIGEN=… [-D PYTHON=…] -D WORK=… -P
-# installed_examples.cmake
+# our headers, and runs them. cmake -D BUILD=… -D CXX=… -D GENERATOR=… -D EIGEN=… [-D MUJOCO=…] [-D PYTHON=…] -D WORK=…
+# -P installed_examples.cmake
 cmake_policy(VERSION 3.25)
 
 include(${CMAKE_CURRENT_LIST_DIR}/../support/run.cmake)
@@ -24,10 +24,16 @@ endif()
 
 file(GLOB_RECURSE examples ${prefix}/share/doc/*/examples/CMakeLists.txt)
 cmake_path(GET examples PARENT_PATH source)
-# DART's example, the dearest to compile, is built and run by tests/recipes/ alone.
-run(0 "" ${CMAKE_COMMAND} -S ${source} -B ${WORK}/build -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${CXX} -D DART_LIBRARY=OFF
+# The examples of DART and MuJoCo, the dearest to compile, are built and run by tests/recipes/ alone.
+run(0 "" ${CMAKE_COMMAND} -S ${source} -B ${WORK}/build -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${CXX} -D DART_LIBRARY=OFF -D MUJOCO_LIBRARY=OFF
   -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_NO_SYSTEM_FROM_IMPORTED=ON "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror -pedantic")
 run(0 "" ${CMAKE_COMMAND} --build ${WORK}/build)
+
+# What engines' examples share compiles against the installed files too.
+if(EXISTS "${MUJOCO}/mujoco/mujoco.h")
+  run(0 "" ${CXX} -std=c++17 -fsyntax-only -Wall -Wextra -Werror -pedantic -I${prefix}/include -isystem ${EIGEN} -I${MUJOCO}
+    -I${source}/.. ${source}/engines/mujoco_solver.cpp)
+endif()
 
 # The compiler must refuse containers of another layout.
 set(compile ${CXX} -std=c++17 -fsyntax-only -I${prefix}/include -I${EIGEN} ${source}/judge_own_solver.cpp)

@@ -85,14 +85,19 @@ def test_copies_of_what_cannot_change(quick):
         assert copy.copy(each) is each and copy.deepcopy([each])[0] is each
 
 
+PICKLED = []
+
+
 def pickled(quick):
-    """An object of each class that can be pickled."""
-    s = ursula.read_scenario(quick)
-    t = np.linspace(0, s.duration, 41)
-    tau = s.inverse_dynamics(s.motion(t))
-    r = ursula.validate(s, lambda m: s.inverse_dynamics(m) * np.array([1, 1, 1.001, 1, 1, 1]))
-    out = [s, s.motion(t[:3]), r, r.checks[0], r.findings[0], r.deviation, r.cause, ursula.simulate(s, tau, t)]
-    return out + [each for each in (r.replay_error,) if each]
+    """An object of each class that can be pickled; made once, as none can change."""
+    if not PICKLED:
+        s = ursula.read_scenario(quick)
+        t = np.linspace(0, s.duration, 41)
+        tau = s.inverse_dynamics(s.motion(t))
+        r = ursula.validate(s, lambda m: s.inverse_dynamics(m) * np.array([1, 1, 1.001, 1, 1, 1]))
+        PICKLED.extend([s, s.motion(t[:3]), r, r.checks[0], r.findings[0], r.deviation, r.cause, ursula.simulate(s, tau, t)])
+        PICKLED.extend(each for each in (r.replay_error,) if each)
+    return PICKLED
 
 
 def test_every_class_by_every_protocol(quick):

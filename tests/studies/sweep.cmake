@@ -11,4 +11,4 @@ add_executable(sweep_tests
 )
 target_link_libraries(sweep_tests PRIVATE test_support test_components SQLite::SQLite3 GTest::gmock GTest::gtest_main)
 target_compile_definitions(sweep_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
-ursula_test_suites(sweep_tests)
+ursula_test_suites(sweep_tests LONG SweepWorker)

@@ -11,7 +11,7 @@ add_executable(witness_tests
 target_link_libraries(witness_tests PRIVATE
   test_support test_components ursula::mujoco fmt::fmt GTest::gmock GTest::gtest_main)
 target_compile_definitions(witness_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
-ursula_test_suites(witness_tests LONG Scenarios/Budget Scenarios/Extremes)
+ursula_test_suites(witness_tests LONG Attribution Places Scenarios/AtRest Scenarios/Budget Scenarios/Extremes WrongSimbody)
 
 # The input that all formulations share: the commanded motion and the load.
 add_executable(commanded_tests

@@ -19,5 +19,6 @@ foreach(program foundation_tests profile_tests)
   target_link_libraries(${program} PRIVATE
     test_scalars test_support test_components fmt::fmt nlohmann_json::nlohmann_json GTest::gmock GTest::gtest_main)
   target_compile_definitions(${program} PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
-  ursula_test_suites(${program} LONG Kilometres/FarAway Scenarios/Profile Scenarios/Shared Tolerance)
+  ursula_test_suites(${program} LONG Between CheckList Errors/UnevenEngine Kilometres/FarAway NoisyFormulations Scenarios/Profile
+    Scenarios/Shared Tolerance)
 endforeach()
