@@ -91,6 +91,7 @@ std::string withDeviation(double value, double deviation) {
   const double size = std::abs(value);
   if (deviation == 0) return fmt::format("{:.9g}", value);
   if (!(deviation > 1e-9 * size && std::isfinite(deviation))) return fmt::format("{:.9g} +- {:.1g}", value, deviation);
+  if (size <= deviation) return fmt::format("0 +- {:.1g}", deviation);
   const int place = static_cast<int>(std::floor(std::log10(deviation)));
   return fmt::format("{:.{}f} +- {:.1g}", value, std::clamp(-place, 0, 15), deviation);
 }

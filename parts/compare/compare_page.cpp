@@ -33,16 +33,6 @@ using report::Stroke;
 constexpr std::size_t buckets_in_all = 9000, fewest_buckets = 60, most_buckets = 400;
 constexpr std::size_t open_at_first = 3;
 
-/// The unit that a column's name ends in: "tau_3_Nm" → "Nm".
-std::string unitOf(const std::string& channel) {
-  for (const std::string unit : {"rad_s2", "m_s2", "rad_s", "m_s", "Nm", "rad", "N", "m", "J", "W", "s"}) {
-    const std::string ending = "_" + unit;
-    if (channel.size() > ending.size() && channel.compare(channel.size() - ending.size(), ending.size(), ending) == 0)
-      return unit;
-  }
-  return "";
-}
-
 /// The used share of a channel's tolerance; infinite for any deviation if the tolerance is 0.
 double shareOf(const ChannelComparison& channel) {
   if (channel.outside == 0) return 0;
@@ -51,11 +41,12 @@ double shareOf(const ChannelComparison& channel) {
 
 int rank(Verdict verdict) { return verdict == Verdict::fail ? 0 : verdict == Verdict::inconclusive ? 1 : 2; }
 
-/// NaN counts as the worst share.
+/// Derived channels come after the others of their verdict; NaN counts as the worst share.
 std::vector<std::size_t> worstFirst(const std::vector<ChannelComparison>& channels) {
   const auto place = [&channels](std::size_t k) {
     const double share = shareOf(channels[k]);
-    return std::tuple(rank(channels[k].verdict), !std::isnan(share), std::isnan(share) ? 0 : -share);
+    return std::tuple(rank(channels[k].verdict), isDerived(channels[k].name), !std::isnan(share),
+                      std::isnan(share) ? 0 : -share);
   };
   std::vector<std::size_t> order(channels.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -63,11 +54,16 @@ std::vector<std::size_t> worstFirst(const std::vector<ChannelComparison>& channe
   return order;
 }
 
+std::string sizeText(double share) { return share < 1e-6 ? report::plainNumber(share, 2) : report::percentText(share); }
+
 std::string shareText(const ChannelComparison& channel) {
   const double share = shareOf(channel);
   if (std::isnan(share)) return "is not a number somewhere";
   if (std::isinf(share)) return "differs, with a tolerance of 0";
-  if (share > 1) return fmt::format("is off by {} times its tolerance", report::plainNumber(share, 2));
+  if (share > 1)
+    return fmt::format("is off by {}, {} of the largest; its tolerance is {}",
+                       quantity(channel.max_error, unitOf(channel.name)), sizeText(channel.max_error / channel.scale),
+                       quantity(channel.tolerance, unitOf(channel.name)));
   return fmt::format("is at {} of its tolerance", report::plainNumber(share, 2));
 }
 
@@ -93,7 +89,8 @@ HtmlValue channelRow(const ChannelComparison& c, std::size_t index) {
   return {{"verdict", name(c.verdict)},
           {"badge", report::verdictBadge(c.verdict)},
           {"index", index},
-          {"channel", c.name},
+          {"channel", channelWords(c.name)},
+          {"column", c.name},
           {"largest", quantity(c.max_error, unit)},
           {"at", quantity(c.max_at, "s")},
           {"rms", quantity(c.rms_error, unit)},
@@ -107,7 +104,8 @@ HtmlValue channelGroup(const ChannelComparison& channel, const ChannelCharts& ch
           {"index", index},
           {"open", place < open_at_first || channel.verdict == Verdict::fail},
           {"badge", report::verdictBadge(channel.verdict)},
-          {"channel", channel.name},
+          {"channel", channelWords(channel.name)},
+          {"column", channel.name},
           {"share", shareText(channel)},
           {"charts", report::figureHtml(charts.curves, 2 * place, "h3") +
                          report::figureHtml(charts.difference, 2 * place + 1, "h3")}};
@@ -141,12 +139,13 @@ ChannelCharts channelCharts(const ChannelComparison& channel, const ChannelCurve
   const std::string unit = report::prettyUnit(unitOf(channel.name));
   const std::string label = unit.empty() ? "" : " (" + unit + ")";
   ChannelCharts out;
-  out.curves = timePlot(curves, channel.name, channel.name + label);
+  const std::string words = channelWords(channel.name);
+  out.curves = timePlot(curves, words, words + label);
   out.curves.lines = {{"upper limit", unit, 0, Stroke::limit, curves.high},
                       {"lower limit", unit, 0, Stroke::limit, curves.low},
                       {"reference", unit, 0, Stroke::ghost, curves.reference},
                       {"test", unit, 0, Stroke::line, curves.test}};
-  out.difference = timePlot(curves, channel.name + ": test less reference", "difference" + label);
+  out.difference = timePlot(curves, words + ": test less reference", "difference" + label);
   out.difference.lines = {{"upper limit", unit, 0, Stroke::limit, less(curves.high, curves.reference)},
                           {"lower limit", unit, 0, Stroke::limit, less(curves.low, curves.reference)},
                           {"difference", unit, 0, Stroke::line, less(curves.test, curves.reference)}};
@@ -161,16 +160,18 @@ std::string comparisonSentence(const Comparison& c) {
   const ChannelComparison& worst = c.channels[worstFirst(c.channels).front()];
   const std::string off =
       fmt::format("{} at t = {:.6g} s", quantity(worst.max_error, unitOf(worst.name)), worst.max_at);
+  const std::string words = channelWords(worst.name);
   const std::string of = fmt::format("of {} channels at {} instants", c.channels.size(), c.instants);
   if (worst.verdict == Verdict::fail)
-    return fmt::format("The test differs from the reference in {} {}: most in {}, by up to {}, which {}.",
-                       countOf(c, Verdict::fail), of, worst.name, off, shareText(worst));
+    return report::unbroken(fmt::format("The test differs from the reference in {} {}. The {} {}, at t = {:.6g} s.",
+                                        countOf(c, Verdict::fail), of, words, shareText(worst), worst.max_at));
   if (worst.verdict == Verdict::inconclusive)
     return fmt::format("Nothing surely differs, but {} {} cannot be judged.", countOf(c, Verdict::inconclusive), of);
   if (worst.max_error == 0)
     return fmt::format("The test is the same as the reference in {} {}.", countOf(c, Verdict::pass), of);
-  return fmt::format("The test agrees with the reference in {} {}: the worst, {}, is off by {} and {}.",
-                     countOf(c, Verdict::pass), of, worst.name, off, shareText(worst));
+  return report::unbroken(
+      fmt::format("The test agrees with the reference in {} {}: the worst, {}, is off by {} and {}.",
+                  countOf(c, Verdict::pass), of, words, off, shareText(worst)));
 }
 
 std::string comparisonHtml(const Comparison& comparison, const std::vector<ChannelCharts>& charts,

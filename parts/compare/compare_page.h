@@ -15,6 +15,15 @@ struct ChannelCharts {
   report::Plot difference;  ///< test minus reference, and the tube around zero
 };
 
+/// Returns the unit that a column's name ends in: "tau_3_Nm" → "Nm"; "" if there is none.
+std::string unitOf(const std::string& channel);
+
+/// Returns a column in words: "tau_3_N" → "force of motor 3", "sim_p_x_m" → "simulated position of P, x".
+std::string channelWords(const std::string& channel);
+
+/// Whether a column was computed from others: errors, limits, gaps, the other side's efforts. These come last.
+bool isDerived(const std::string& channel);
+
 /// Thins the charts to visible detail; more channels get fewer points each.
 ChannelCharts channelCharts(const ChannelComparison& channel, const ChannelCurves& curves, std::size_t channel_count);
 

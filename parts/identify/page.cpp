@@ -7,6 +7,7 @@
 #include "report/page/html_template.h"
 #include "report/page/page.h"
 #include "report/page/plots.h"
+#include "report/text/quantity.h"
 #include "report/text/text.h"
 
 namespace ursula {
@@ -20,6 +21,7 @@ using report::HtmlValue;
 using report::Line;
 using report::listOf;
 using report::Plot;
+using report::quantity;
 using report::rendered;
 using report::Stroke;
 
@@ -35,12 +37,12 @@ std::vector<double> sum(std::vector<double> a, double factor, const std::vector<
   return a;
 }
 
-Plot plotOf(const IdentifyResult& result, std::size_t k, const std::string& title, const std::string& quantity,
+Plot plotOf(const IdentifyResult& result, std::size_t k, const std::string& title, const std::string& what,
             std::vector<Line> lines) {
   Plot plot;
   plot.title = fmt::format("{} of motor {}", title, k + 1);
   plot.x_label = "t (s)";
-  plot.y_label = fmt::format("{} ({})", quantity, result.motors[k].unit);
+  plot.y_label = fmt::format("{} ({})", what, report::prettyUnit(result.motors[k].unit));
   plot.over_time = plot.tube = true;
   plot.x = *result.series.find("t_s");
   plot.rows = plot.x.size();
@@ -54,10 +56,10 @@ Plot errorPlot(const IdentifyResult& result, std::size_t k) {
   const std::vector<double> measured = columnOf(result, "tau", k), u = columnOf(result, "u_val", k),
                             none(measured.size(), 0.0);
   return plotOf(
-      result, k, "Error", "E = S − D",
-      {{"1.96 u_val", unit, 0, Stroke::limit, sum(none, 1.96, u)},
-       {"−1.96 u_val", unit, 0, Stroke::limit, sum(none, -1.96, u)},
-       {"E, model less measured", unit, 0, Stroke::line, sum(columnOf(result, "model", k), -1, measured)},
+      result, k, "Difference", "model less measured",
+      {{"uncertainty, 95 %", unit, 0, Stroke::limit, sum(none, 1.96, u)},
+       {"− uncertainty", unit, 0, Stroke::limit, sum(none, -1.96, u)},
+       {"model less measured", unit, 0, Stroke::line, sum(columnOf(result, "model", k), -1, measured)},
        {"fitted model less measured", unit, 2, Stroke::line, sum(columnOf(result, "fitted", k), -1, measured)}});
 }
 
@@ -65,9 +67,9 @@ Plot errorPlot(const IdentifyResult& result, std::size_t k) {
 Plot effortPlot(const IdentifyResult& result, std::size_t k) {
   const std::string unit = result.motors[k].unit;
   const std::vector<double> model = columnOf(result, "model", k), u = columnOf(result, "u_val", k);
-  return plotOf(result, k, "Effort", "effort",
-                {{"model + 1.96 u_val", unit, 0, Stroke::limit, sum(model, 1.96, u)},
-                 {"model − 1.96 u_val", unit, 0, Stroke::limit, sum(model, -1.96, u)},
+  return plotOf(result, k, unit == "N" ? "Force" : "Torque", unit == "N" ? "force" : "torque",
+                {{"model + uncertainty", unit, 0, Stroke::limit, sum(model, 1.96, u)},
+                 {"model − uncertainty", unit, 0, Stroke::limit, sum(model, -1.96, u)},
                  {"measured", unit, 1, Stroke::ghost, columnOf(result, "tau", k)},
                  {"model", unit, 0, Stroke::line, model},
                  {"fitted model", unit, 2, Stroke::line, columnOf(result, "fitted", k)}});
@@ -141,6 +143,21 @@ std::string numbersTable(std::vector<MeasuredNumber> numbers, bool combinations)
                  rows, numbers.size() - rows.size());
 }
 
+/// The table of the first screen: what was measured, and how far the model is off.
+std::string agreementTable(const IdentifyResult& result) {
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t k = 0; k < result.motors.size(); ++k) {
+    const MotorAgreement& m = result.motors[k];
+    rows.push_back({fmt::format("{}", k + 1), quantity(m.effort, m.unit), quantity(m.deviation, m.unit),
+                    quantity(m.largest, m.unit), quantity(m.largest_at_s, "s"), quantity(1.96 * m.u_val, m.unit),
+                    fmt::format("{:.1f}\u00a0%", 100 * m.within), quantity(m.left, m.unit)});
+  }
+  return tableOf({"Motor", "Measured, rms", "Off the model, rms", "Largest", "at", "Uncertainty, 95 %", "Within it",
+                  "Off the fitted model"},
+                 rows);
+}
+
+/// The parts of the uncertainty by ASME V&V 20.
 std::string motorsTable(const IdentifyResult& result) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t k = 0; k < result.motors.size(); ++k) {
@@ -163,10 +180,15 @@ std::string causesTable(const IdentifyResult& result) {
       others += (k > 0 ? ", " : "") + escaped(c.as_well[k]);
     rows.push_back({escaped(c.kind), escaped(c.parameter.empty() ? c.what : c.parameter), numberText(c.expected),
                     numberText(c.found) + " ± " + report::number(1.96 * c.uncertainty), escaped(c.unit),
-                    c.tolerances != 0 ? report::number(c.tolerances) : "–", fmt::format("{:.0f} %", 100 * c.explained),
-                    others});
+                    c.tolerances != 0 ? report::number(c.tolerances) : "–",
+                    fmt::format("{:.0f}\u00a0%", 100 * c.explained), others});
   }
   return tableOf({"Kind", "What", "Model", "Log", "Unit", "Tolerances", "Explains", "As well"}, rows);
+}
+
+/// A delay below its own uncertainty is none.
+std::string delayText(const IdentifyResult& result) {
+  return std::abs(result.delay) < 1.96 * result.delay_uncertainty ? "none seen" : quantity(result.delay, "s");
 }
 
 std::string list(const std::vector<std::string>& items) {
@@ -181,7 +203,7 @@ std::string identifyPage(const IdentifyResult& result) {
   page.title = result.scenario.name;
   page.subtitle = result.file;
   page.verdict = result.verdict;
-  page.sentence = result.sentence;
+  page.sentence = report::unbroken(result.sentence);
   std::vector<std::string> findings;
   for (const LogFinding& each : result.findings) findings.push_back(each.kind + ": " + each.what);
   std::string errors, efforts, spectrum;
@@ -191,26 +213,23 @@ std::string identifyPage(const IdentifyResult& result) {
       error_plots.push_back(errorPlot(result, k));
       effort_plots.push_back(effortPlot(result, k));
     }
-    errors = motorsTable(result) + charts(error_plots, page);
-    efforts = charts(effort_plots, page);
-    spectrum = charts({spectrumPlot(result)}, page);
+    efforts = agreementTable(result) + charts(effort_plots, page);
+    errors = charts(error_plots, page);
+    spectrum = motorsTable(result) + charts({spectrumPlot(result)}, page);
     page.figures = {
-        {"Delay", fmt::format("{:.3g} samples", result.delay / result.step),
-         fmt::format("± {:.2g}", 1.96 * result.delay_uncertainty / result.step)},
-        {"Low passes", fmt::format("{:.3g} Hz", result.effort_cut),
-         fmt::format("motion {:.3g} Hz, goes up to {:.3g} Hz", result.state_cut, result.bandwidth)},
-        {"Periods", fmt::format("{}", result.periods), fmt::format("{:.4g} s each", result.duration / result.periods)},
-        {"Not fitted part", fmt::format("{:.3g}", result.validation_fitted),
-         fmt::format("of the noise; as given {:.3g}", result.validation_given)}};
+        {"Log", quantity(result.duration, "s"), fmt::format("{} rows", result.rows)},
+        {"Delay of the efforts", delayText(result), "± " + quantity(1.96 * result.delay_uncertainty, "s", 2)},
+        {"Compared up to", quantity(result.effort_cut, "Hz"), "by a low pass"},
+        {"Periods", fmt::format("{}", result.periods), quantity(result.duration / result.periods, "s", 4) + " each"}};
   }
   page.sections = {{"causes", "What may be wrong", causesTable(result)},
                    {"findings", "What the log shows", list(findings)},
-                   {"errors", "Comparison error", errors},
-                   {"efforts", "Measured and predicted efforts", efforts},
-                   {"spectrum", "Residual spectrum", spectrum},
+                   {"efforts", "Measured against model", efforts},
+                   {"errors", "Differences", errors},
                    {"parameters", "Numbers that the motion shows", numbersTable(result.numbers, false)},
                    {"combinations", "Combinations that it shows", numbersTable(result.combinations, true)},
-                   {"unseen", "What this motion cannot see", list(result.unseen)}};
+                   {"unseen", "What this motion cannot see", list(result.unseen)},
+                   {"spectrum", "Uncertainty and what the fit leaves", spectrum}};
   page.script = report::charts_script;
   page.footer = fmt::format("<p>ursula {}. Read as: {}</p>", escaped(result.version), escaped(result.read_as));
   return report::pageHtml(page);

@@ -118,6 +118,19 @@ void addSeries(const Comparison& comparison, const BaseFit& fit, const FilteredL
   }
 }
 
+namespace {
+
+std::string causeWords(const MeasuredCause& cause) {
+  if (cause.misread) return cause.what;
+  std::string out =
+      fmt::format("{} is {:.6g} ± {:.2g}{} instead of {:.6g}", cause.parameter.empty() ? cause.what : cause.parameter,
+                  cause.found, 1.96 * cause.uncertainty, cause.unit.empty() ? "" : " " + cause.unit, cause.expected);
+  if (cause.tolerances != 0) out += fmt::format(", {:.3g} of its tolerances", std::abs(cause.tolerances));
+  return cause.outside ? out + ", which no mass, inertia or friction can be" : out;
+}
+
+}  // namespace
+
 std::string identifySentence(const IdentifyResult& result) {
   double worst = 0;
   std::size_t at = 0;
@@ -128,19 +141,17 @@ std::string identifySentence(const IdentifyResult& result) {
       at = k;
     }
   const MotorAgreement& motor = result.motors[at];
-  const std::string size = fmt::format("motor {} deviates by {:.3g} {} (rms) at an uncertainty u_val of {:.3g} {}",
-                                       at + 1, motor.deviation, motor.unit, motor.u_val, motor.unit);
-  if (result.verdict == Verdict::pass)
-    return "The model agrees within its uncertainty at 95 %: " + size + ", the largest share of all.";
+  const std::string size = fmt::format(
+      "motor {}, the worst, was measured {:.3g} {} (rms) off the model, at a standard "
+      "uncertainty of {:.3g} {}",
+      at + 1, motor.deviation, motor.unit, motor.u_val, motor.unit);
+  if (result.verdict == Verdict::pass) return "The model agrees within its uncertainty at 95 %: " + size + ".";
   std::string out = (result.verdict == Verdict::fail ? "The model is wrong: " : "Not judged: ") + size + ".";
   if (result.causes.empty()) return out + (result.verdict == Verdict::fail ? " No single number explains it." : "");
-  const MeasuredCause& cause = result.causes.front();
-  if (cause.misread) return out + " Likely cause: " + cause.what + ".";
-  out += fmt::format(" Likely cause: {} is {:.6g} ± {:.2g}{} instead of {:.6g}",
-                     cause.parameter.empty() ? cause.what : cause.parameter, cause.found, 1.96 * cause.uncertainty,
-                     cause.unit.empty() ? "" : " " + cause.unit, cause.expected);
-  if (cause.tolerances != 0) out += fmt::format(", {:.3g} of its tolerances", std::abs(cause.tolerances));
-  return out + (cause.outside ? ", which no mass, inertia or friction can be." : ".");
+  if (result.causes.front().misread) return out + " Likely cause: " + result.causes.front().what + ".";
+  out += result.causes.size() == 1 ? " Likely cause: " : " Likely causes: ";
+  for (std::size_t k = 0; k < result.causes.size(); ++k) out += (k == 0 ? "" : "; ") + causeWords(result.causes[k]);
+  return out + ".";
 }
 
 }  // namespace ursula::identification

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/instants.h"
 #include "parts/map/pose_map.h"
 #include "report/page/heat_map.h"
 #include "report/text/quantity.h"
@@ -36,6 +37,16 @@ report::HeatAxis axisOf(const PoseGrid& grid, std::size_t k) {
   report::HeatAxis out;
   out.label = fmt::format("{} in {}", grid_axis_names[which], which < 3 ? "m" : "degrees");
   for (int i = 0; i < axis.count; ++i) out.values.push_back(axis.value(i));
+  return out;
+}
+
+/// The commanded motion over the first two axes.
+std::vector<std::pair<double, double>> pathOver(const Scenario& scenario, const PoseGrid& grid) {
+  std::vector<std::pair<double, double>> out;
+  for (const double t : equallySpaced(scenario.trajectory->duration(), 201)) {
+    const std::array<double, grid_axes> at = PoseGrid::coordinatesOf(scenario.trajectory->at(t));
+    out.emplace_back(at[grid.varying()[0]], at[grid.varying()[1]]);
+  }
   return out;
 }
 
@@ -71,7 +82,7 @@ std::string standing(const PoseGrid& grid, int slice) {
 
 constexpr const char* style = R"(<style>
 text { font: 12px sans-serif; fill: #333 } .title { font-size: 13px } .name { font-size: 16px }
-.frame { fill: none; stroke: #444 }
+.frame { fill: none; stroke: #444 } .path { fill: none; stroke: #d1242f; stroke-width: 2.5; stroke-linejoin: round }
 </style>
 )";
 
@@ -80,24 +91,31 @@ text { font: 12px sans-serif; fill: #333 } .title { font-size: 13px } .name { fo
 std::string mapPicture(const Scenario& scenario, const PoseGrid& grid, const DrawnMap& drawn) {
   const std::array<ShownValues, 3> all = {
       {shown("condition number κ(B)", drawn, drawn.kappa, true),
-       shown("smallest margin of the legs", drawn, drawn.sine, false),
+       shown(isTelescopic(scenario) ? "smallest distance from an end of a stroke, m"
+                                    : "smallest margin of the legs: 0 stretched, 1 far from it",
+             drawn, drawn.margin, false),
        shown("largest static effort, " + drawn.effort_unit, drawn, drawn.effort, true)}};
   const std::vector<int> rows = slices(grid);
+  const std::vector<std::pair<double, double>> path = pathOver(scenario, grid);
   std::string out;
   double y = heading + 6;
   for (const int slice : rows) {
     out += fmt::format("<text x=\"20\" y=\"{:.0f}\">{}</text>\n", y + 22, standing(grid, slice));
-    for (std::size_t k = 0; k < all.size(); ++k)
-      out += report::heatMapPanel(sliceOf(grid, all[k], slice), all[k].scale,
-                                  report::heat_map_width * static_cast<double>(k), y);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      report::HeatMap map = sliceOf(grid, all[k], slice);
+      map.path = path;
+      out += report::heatMapPanel(map, all[k].scale, report::heat_map_width * static_cast<double>(k), y);
+    }
     y += report::heat_map_height;
   }
   return fmt::format(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\">\n{}<rect width=\"100%\" "
              "height=\"100%\" fill=\"#fff\"/>\n<text x=\"20\" y=\"24\" class=\"name\">{}</text>\n<rect x=\"{:.0f}\" "
-             "y=\"12\" width=\"14\" height=\"14\" fill=\"{}\"/>\n<text x=\"{:.0f}\" y=\"24\">out of reach</text>\n",
+             "y=\"12\" width=\"14\" height=\"14\" fill=\"{}\"/>\n<text x=\"{:.0f}\" y=\"24\">out of reach</text>\n"
+             "<path class=\"path\" d=\"M{:.0f} 19h24\"/><text x=\"{:.0f}\" y=\"24\">commanded path</text>\n",
              3 * report::heat_map_width, y, style, report::escaped(scenario.name), 3 * report::heat_map_width - 130,
-             report::heat_map_nothing, 3 * report::heat_map_width - 110) +
+             report::heat_map_nothing, 3 * report::heat_map_width - 110, 3 * report::heat_map_width - 290,
+             3 * report::heat_map_width - 260) +
          out + "</svg>\n";
 }
 

@@ -40,7 +40,8 @@ int map(const MapOptions& options) {
   if (draws && grid.size() > most_drawn)
     throw UsageError(fmt::format("--picture: {} poses, expected at most {}", grid.size(), most_drawn));
   DrawnMap drawn;
-  const BlockTable table = mapBlocks(scenario, grid, draws ? &drawn : nullptr);
+  drawn.kept = draws;
+  const BlockTable table = mapBlocks(scenario, grid, drawn);
   Progress progress(scenario.name);
   const auto written = [&](double share) {
     progress.at(share, fmt::format("{:.0f} of {} poses", share * static_cast<double>(grid.size()), grid.size()));
@@ -52,6 +53,8 @@ int map(const MapOptions& options) {
   });
   if (draws) writePicture(options.picture, mapPicture(scenario, grid, drawn));
   if (out) out->commit();
+  sayText(fmt::format("{}: {} of {} poses are in reach{}\n", scenario.name, drawn.reached, grid.size(),
+                      drawn.reached == 0 ? "; give other ranges by --x, --y, --z" : ""));
   return exit_passed;
 }
 

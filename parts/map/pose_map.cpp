@@ -11,6 +11,8 @@
 #include "base/scalar.h"
 #include "base/text.h"
 #include "model/instants.h"
+#include "model/leg_kind.h"
+#include "model/legs/leg_type.h"
 #include "model/torque_names.h"
 #include "nocsolver/legs/leg_model.h"
 #include "parts/fast/batch_dynamics.h"
@@ -98,10 +100,9 @@ PoseGrid::PoseGrid(const Scenario& scenario, const std::array<GridAxis, grid_axe
   if (std::none_of(axes_.begin(), axes_.end(), [](const GridAxis& axis) { return axis.varies(); }))
     setAround(scenario, axes_);
   turns_ = std::any_of(axes_.begin() + 3, axes_.end(), [](const GridAxis& axis) { return axis.given; });
-  Vector6d coordinates;
-  coordinates << there.p, anglesOf(there.Q);
+  const std::array<double, grid_axes> coordinates = coordinatesOf(there);
   for (std::size_t i = 0; i < grid_axes; ++i) {
-    if (!axes_[i].given) axes_[i].from = axes_[i].to = coordinates(static_cast<Eigen::Index>(i));
+    if (!axes_[i].given) axes_[i].from = axes_[i].to = coordinates[i];
     if (!axes_[i].varies()) continue;
     varying_.push_back(i);
     const auto count = static_cast<std::size_t>(axes_[i].count);
@@ -113,6 +114,11 @@ PoseGrid::PoseGrid(const Scenario& scenario, const std::array<GridAxis, grid_axe
   for (const std::size_t i : varying_) names += (names.empty() ? "" : ", ") + std::string(grid_axis_names[i]);
   throw GridError(fmt::format("{} {} ({}), expected two or three with FROM,TO,COUNT", varying_.size(),
                               varying_.size() == 1 ? "coordinate varies" : "coordinates vary", names));
+}
+
+std::array<double, grid_axes> PoseGrid::coordinatesOf(const Motion<double>& pose) {
+  const Vector3d angles = anglesOf(pose.Q);
+  return {pose.p.x(), pose.p.y(), pose.p.z(), angles.x(), angles.y(), angles.z()};
 }
 
 std::array<double, grid_axes> PoseGrid::at(std::size_t k) const {
@@ -143,7 +149,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Kinematic results for one pose.
 struct Reached {
-  double reach = 0, kappa = none, sine_min = none;
+  double reach = 0, kappa = none, sine_min = none, stroke_min = none;
   std::vector<double> sines;
 };
 
@@ -169,6 +175,20 @@ class PoseMap {
   }
 
  private:
+  bool hasStroke() const {
+    const auto& legs = scenario_.manipulator->parameters().legs;
+    return std::any_of(legs.begin(), legs.end(), [](const Leg& leg) { return leg.kind == LegKind::UPS; });
+  }
+
+  /// The smallest distance from an end of a stroke, m.
+  double strokeLeft(const JointVariables<double>& q) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < scenario_.manipulator->legCount(); ++i)
+      if (const Leg& leg = scenario_.manipulator->leg(i); leg.kind == LegKind::UPS)
+        least = std::min(least, typeOf(leg.kind).margin(leg, q, i));
+    return least;
+  }
+
   std::size_t legs() const { return scenario_.manipulator->parameters().legs.size(); }
 
   TimeSeries emptyBlock(std::size_t rows) const {
@@ -178,6 +198,7 @@ class PoseMap {
       add(name);
     for (std::size_t i = 0; i < legs(); ++i) add(fmt::format("sine_{}", i + 1));
     add("sine_min");
+    if (hasStroke()) add("stroke_min_m");
     add(fmt::format("tau_max_{}", effortSuffix(scenario_.manipulator->motors())));
     return out;
   }
@@ -187,12 +208,13 @@ class PoseMap {
     const std::array<double, grid_axes> at = grid_.at(of_grid);
     const Reached reached = reachedAt(pose);
     std::size_t column = 0;
-    const auto put = [&](double value) { out.columns[column++][row] = value; };
+    const auto put = [&](double value) { out.columns[column++][row] = value + 0.0; };  // no −0
     for (std::size_t i = 0; i < grid_axes; ++i) put(i < 3 ? at[i] : at[i] * degree);
     put(reached.reach);
     put(reached.kappa);
     for (const double sine : reached.sines) put(sine);
     put(reached.sine_min);
+    if (hasStroke()) put(reached.stroke_min);
     put(reached.reach == 1 ? efforts.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : none);
   }
 
@@ -205,6 +227,7 @@ class PoseMap {
       out.reach = 1;
       for (std::size_t i = 0; i < out.sines.size(); ++i) out.sines[i] = solver_.margins(work, static_cast<int>(i)).sine;
       out.sine_min = *std::min_element(out.sines.begin(), out.sines.end());
+      out.stroke_min = strokeLeft(solver_.angles(work));
       solver_.jacobians(pose, work);
       out.kappa = conditionNumber(scaledB(work.B, solver_.length()));
     } catch (const StretchedLeg&) {
@@ -229,18 +252,26 @@ void keep(const TimeSeries& block, std::vector<float>& to, const std::vector<dou
 
 }  // namespace
 
-BlockTable mapBlocks(const Scenario& scenario, const PoseGrid& grid, DrawnMap* drawn) {
+bool isTelescopic(const Scenario& scenario) {
+  const auto& legs = scenario.manipulator->parameters().legs;
+  return std::all_of(legs.begin(), legs.end(), [](const Leg& leg) { return leg.kind == LegKind::UPS; });
+}
+
+BlockTable mapBlocks(const Scenario& scenario, const PoseGrid& grid, DrawnMap& drawn) {
   const auto map = std::make_shared<PoseMap>(scenario, grid);
   BlockTable table;
   table.rows = grid.size();
   table.blocks = (table.rows + rows_of_block - 1) / rows_of_block;
   table.make = [map](std::size_t k) { return map->block(k); };
-  if (drawn == nullptr) return table;
-  drawn->effort_unit = std::string(effortSuffix(scenario.manipulator->motors())) == "N" ? "N" : "N·m";
-  table.settle = [drawn](TimeSeries& block) {
-    keep(block, drawn->kappa, *block.find("kappa_B"));
-    keep(block, drawn->sine, *block.find("sine_min"));
-    keep(block, drawn->effort, block.columns.back());
+  drawn.effort_unit = std::string(effortSuffix(scenario.manipulator->motors())) == "N" ? "N" : "N·m";
+  const char* const margin = isTelescopic(scenario) ? "stroke_min_m" : "sine_min";
+  table.settle = [&drawn, margin](TimeSeries& block) {
+    const std::vector<double>& reach = *block.find("reach");
+    drawn.reached += static_cast<std::size_t>(std::count(reach.begin(), reach.end(), 1.0));
+    if (!drawn.kept) return;
+    keep(block, drawn.kappa, *block.find("kappa_B"));
+    keep(block, drawn.margin, *block.find(margin));
+    keep(block, drawn.effort, block.columns.back());
   };
   return table;
 }

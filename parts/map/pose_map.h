@@ -45,6 +45,8 @@ class PoseGrid {
   /// Returns the coordinates of pose k in m and degrees.
   std::array<double, grid_axes> at(std::size_t k) const;
   Motion<double> pose(std::size_t k) const;
+  /// Returns the coordinates of any pose, in m and degrees.
+  static std::array<double, grid_axes> coordinatesOf(const Motion<double>& pose);
   const GridAxis& axis(std::size_t which) const { return axes_[which]; }
   /// Returns the indices of the varying axes, the fastest first.
   const std::vector<std::size_t>& varying() const { return varying_; }
@@ -59,21 +61,27 @@ class PoseGrid {
 
 /// The plotted values of each pose, in the grid's order; NaN if missing.
 struct DrawnMap {
-  std::vector<float> kappa, sine, effort;  ///< NaN kappa means out of reach
-  std::string effort_unit;                 ///< "N·m", or "N"
+  bool kept = true;                          ///< whether the values below are kept
+  std::size_t reached = 0;                   ///< poses that all legs can take
+  std::vector<float> kappa, margin, effort;  ///< NaN kappa means out of reach
+  std::string effort_unit;                   ///< "N·m", or "N"
 };
 
 /// One row per pose of `grid`: position of P, m; roll, pitch, yaw, rad; `reach`, 1 if all legs can take the pose, else
 /// 0. `kappa_B` is the condition number of B of (23) with moments over the machine's length; `sine_i` is each leg's
-/// margin (LegMargins::sine), `sine_min` the smallest. `tau_max` is the largest effort that holds the pose at rest,
-/// under gravity and the scenario's load, by BatchDynamics. It is NaN if reach is 0 or the pose is singular. Fills
-/// `drawn` unless null.
-BlockTable mapBlocks(const Scenario& scenario, const PoseGrid& grid, DrawnMap* drawn);
+/// margin (LegMargins::sine), `sine_min` the smallest; telescopic legs have `stroke_min_m`, the smallest distance from
+/// an end of a stroke. `tau_max` is the largest effort that holds the pose at rest, under gravity and the scenario's
+/// load, by BatchDynamics. It is NaN if reach is 0 or the pose is singular. Fills `drawn`.
+BlockTable mapBlocks(const Scenario& scenario, const PoseGrid& grid, DrawnMap& drawn);
+
+/// Whether every leg is telescopic, so that its stroke and no angle limits it.
+bool isTelescopic(const Scenario& scenario);
 
 /// The largest number of poses for mapPicture.
 constexpr std::size_t most_drawn = 1'000'000;
 
-/// Returns SVG heat maps of κ, sine and effort over the first two axes. Each of at most six values of the third axis
+/// Returns SVG heat maps of κ, of what limits the legs (stroke or sine) and of effort over the first two axes, with the
+/// commanded path. Each of at most six values of the third axis
 /// has a row. Poses out of reach are grey.
 std::string mapPicture(const Scenario& scenario, const PoseGrid& grid, const DrawnMap& drawn);
 

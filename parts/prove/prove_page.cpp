@@ -1,6 +1,7 @@
 #include "parts/prove/prove.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@
 
 namespace ursula {
 
-extern const std::string_view prove_matrix_html, prove_checks_html, prove_thresholds_html, prove_random_html;
+extern const std::string_view prove_defects_html, prove_checks_html, prove_thresholds_html, prove_random_html;
 
 namespace {
 
@@ -32,14 +33,10 @@ const char* wordOf(const DefectOutcome& outcome) {
 
 const char* signOf(const DefectOutcome& outcome) { return !outcome.shows ? "–" : outcome.caught() ? "✓" : "✗"; }
 
-/// Returns a diamond for the first check that caught it, a tick for the others, so that colour is not essential.
-HtmlValue cell(const DefectOutcome& outcome, const std::string& check) {
-  const auto hit = std::find(outcome.caught_by.begin(), outcome.caught_by.end(), check);
-  const bool first = hit == outcome.caught_by.begin(), any = hit != outcome.caught_by.end();
-  return {{"mark", !any ? "" : first ? "◆" : "✓"}, {"first", any && first}};
-}
-
-HtmlValue matrixRow(const DefectOutcome& outcome, const std::vector<std::string>& checks) {
+HtmlValue defectRow(const DefectOutcome& outcome) {
+  std::vector<std::string> checks;
+  for (const std::string& check : outcome.caught_by) checks.push_back(checkTitle(check));
+  const std::vector<std::string> others(checks.begin() + (checks.empty() ? 0 : 1), checks.end());
   return {{"verdict", name(verdictOf(outcome))},
           {"sign", signOf(outcome)},
           {"word", wordOf(outcome)},
@@ -48,17 +45,17 @@ HtmlValue matrixRow(const DefectOutcome& outcome, const std::vector<std::string>
           {"kind", outcome.group},
           {"caught", outcome.formulations()},
           {"wanted", outcome.formulations_wanted},
-          {"cells", listOf(checks, [&outcome](const std::string& check) { return cell(outcome, check); })}};
+          {"first", checks.empty() ? "–" : checks.front()},
+          {"more", others.empty() ? "" : std::to_string(others.size())},
+          {"others", fmt::format("{}", fmt::join(others, ", "))}};
 }
 
-std::string matrix(const std::vector<DefectOutcome>& outcomes) {
-  const std::vector<std::string> checks = catchingChecks(outcomes);
+std::string defectsTable(const std::vector<DefectOutcome>& outcomes) {
   std::vector<HtmlValue> rows;
   for (const int wanted : {0, 1, 2})  // missed defects first, those without effect last
     for (const DefectOutcome& outcome : outcomes)
-      if ((!outcome.shows ? 2 : outcome.caught() ? 1 : 0) == wanted) rows.push_back(matrixRow(outcome, checks));
-  const auto head = [](const std::string& check) { return HtmlValue{{"check", check}, {"title", checkTitle(check)}}; };
-  return rendered(prove_matrix_html, {{"checks", listOf(checks, head)}, {"rows", rows}}) + "\n";
+      if ((!outcome.shows ? 2 : outcome.caught() ? 1 : 0) == wanted) rows.push_back(defectRow(outcome));
+  return rendered(prove_defects_html, {{"rows", rows}}) + "\n";
 }
 
 HtmlValue checkRowOf(const CheckProof& proof) {
@@ -165,7 +162,7 @@ std::string proveHtml(const ProveResult& found) {
   page.figures = figuresOf(found);
   if (found.proof)
     page.sections = {
-        {"defects", "Defects against checks", matrix(found.proof->outcomes)},
+        {"defects", "Defects", defectsTable(found.proof->outcomes)},
         {"checks", "Checks", rendered(prove_checks_html, {{"rows", listOf(found.proof->checks, checkRowOf)}}) + "\n"},
         {"thresholds", "Thresholds", thresholds(found.sensitivities)}};
   page.sections.push_back({"random", "Random valid scenarios", randomTable(found.random)});

@@ -6,6 +6,7 @@
 #include "report/files/run.h"
 #include "report/files/written_files.h"
 #include "report/page/plots.h"
+#include "report/text/result_facts.h"
 
 namespace ursula {
 
@@ -26,6 +27,8 @@ SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path fold
   SuiteEntry entry{result.scenario, result.verdict, std::move(folder), result.checks, "", time, "", {}, {}};
   if (result.replay_error) entry.dominant = name(result.replay_error->dominant);
   entry.run = result.run;
+  entry.kind = result.kind;
+  if (!result.cause_words.cause.empty()) entry.cause = report::causeText(result.cause_words);
   entry.trend = report::trendOf(result.timeseries);
   entry.properties = {{"verdict", name(result.verdict)}, {"limits", name(result.limits)}};
   entry.properties.insert(entry.properties.end(), result.provenance.begin(), result.provenance.end());

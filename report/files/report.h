@@ -50,6 +50,8 @@ struct SuiteEntry {
   std::vector<double> trend;  ///< the replay's error along the motion, m, in few steps; empty without a replay
   std::vector<std::pair<std::string, std::string>> properties = {};  ///< for the JUnit file: limits, provenance
   std::string run = {};                                              ///< as in ValidationResult
+  std::string kind = "manipulator";                                  ///< of the machine, as in ValidationResult
+  std::string cause = {};                                            ///< "likely cause: …"; empty if none is named
 };
 
 /// Returns the entry of `result` in a suite.

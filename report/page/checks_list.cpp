@@ -85,8 +85,8 @@ HtmlValue item(const Check& check, const Decades& decades, const std::string& ki
           {"value", has_value ? quantity(check.value, check.unit) : "no value"},
           {"limit", has_value ? quantity(check.limit, check.unit) : ""},
           {"means", words.proves},
-          {"found", check.why},
-          {"basis", formulaInPrint(check.basis)},
+          {"found", unbroken(check.why)},
+          {"basis", unbroken(formulaInPrint(check.basis))},
           {"in_full", inFull(check)}};
 }
 

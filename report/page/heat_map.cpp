@@ -77,7 +77,7 @@ class Panel {
   std::string drawing() const {
     return fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" class=\"title\">{}</text>\n", x_, y_ - 12,
                        escaped(map_.title)) +
-           cells() + frame() + legend();
+           cells() + path() + frame() + legend();
   }
 
  private:
@@ -101,6 +101,19 @@ class Panel {
         out += fmt::format("<path style=\"fill:{}\" shape-rendering=\"crispEdges\" d=\"{}\"/>\n",
                            c == colours ? heat_map_nothing : colour(c), path);
     return out;
+  }
+
+  std::string path() const {
+    std::string d;
+    bool within = false;
+    for (const auto& [x, y] : map_.path) {
+      const double right = map_.x.values.size() < 2 ? 0.5 : shareOf(map_.x.values, x),
+                   up = map_.y.values.size() < 2 ? 0.5 : shareOf(map_.y.values, y);
+      const bool inside = right >= 0 && right <= 1 && up >= 0 && up <= 1;
+      if (inside) d += fmt::format("{}{:.1f} {:.1f}", within ? 'L' : 'M', x_ + panel * right, y_ + panel * (1 - up));
+      within = inside;
+    }
+    return d.empty() ? "" : "<path class=\"path\" d=\"" + d + "\"/>\n";
   }
 
   int colourAt(std::size_t i, std::size_t j) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ursula::report {
@@ -35,7 +36,8 @@ struct HeatAxis {
 struct HeatMap {
   std::string title;  ///< plain text
   HeatAxis x, y;
-  std::vector<float> values;  ///< x varies fastest; NaN cells are grey
+  std::vector<float> values;                         ///< x varies fastest; NaN cells are grey
+  std::vector<std::pair<double, double>> path = {};  ///< drawn over the cells as far as it is within them
 };
 
 /// Size of a heat map, px.
@@ -43,8 +45,8 @@ constexpr double heat_map_width = 424, heat_map_height = 348;
 
 constexpr const char* heat_map_nothing = "#bbb";  ///< the colour of cells without a value
 
-/// Returns SVG for a drawing, with its corner at (x, y). Texts have the class "title" and the frame "frame"; the
-/// drawing or the page defines their style.
+/// Returns SVG for a drawing, with its corner at (x, y). Texts have the class "title", the frame "frame", a path
+/// "path"; the drawing or the page defines their style.
 std::string heatMapPanel(const HeatMap& map, const HeatScale& scale, double x, double y);
 
 }  // namespace ursula::report

@@ -76,11 +76,9 @@ Facts printed(Facts facts) {
   return facts;
 }
 
-/// The figure of the error's sources for the first screen.
-std::string sources(const std::vector<Plot>& plots) {
-  for (std::size_t i = 0; i < plots.size(); ++i)
-    if (plots[i].group == PlotGroup::sources) return figureHtml(plots[i], i, "h2");
-  return "";
+/// The first screen's figures: the motor that is most off, or else the sources of the replay's error.
+PlotGroup firstGroup(const std::vector<Plot>& plots) {
+  return plots.empty() ? PlotGroup::sources : std::min(plots.front().group, PlotGroup::sources);
 }
 
 std::string cardOf(const ValidationResult& result, const Picture* picture) {
@@ -89,8 +87,10 @@ std::string cardOf(const ValidationResult& result, const Picture* picture) {
 }
 
 std::string stageOf(const ValidationResult& result, const Picture* picture) {
-  if (picture != nullptr) return svgMachine(*picture);
-  return result.mechanism != nullptr ? svgMachine(*result.mechanism, motorsOff(result)) : "";
+  std::vector<int> marked = markedOf(motorsOff(result));
+  if (picture == nullptr) return result.mechanism != nullptr ? svgMachine(*result.mechanism, marked) : "";
+  for (int& motor : marked) motor = legOf(result, motor);
+  return svgMachine(*picture, marked);
 }
 
 std::string lineOf(const ValidationResult& result, const Picture* picture) {
@@ -99,12 +99,15 @@ std::string lineOf(const ValidationResult& result, const Picture* picture) {
 }
 
 std::vector<PageSection> parts(const ValidationResult& result, const Picture* picture, const std::vector<Plot>& plots) {
+  const bool on_top = firstGroup(plots) == PlotGroup::sources;
   return {{"checks", "Checks", checksList(result.checks, result.kind)},
-          {"errors", "Errors along the motion", figuresHtml(plots, PlotGroup::errors)},
-          {"efforts", "Efforts", figuresHtml(plots, PlotGroup::efforts)},
-          {"motion", "Motion", figuresHtml(plots, PlotGroup::motion)},
-          {"reactions", "Reactions", figuresHtml(plots, PlotGroup::reactions)},
-          {"numerics", "Numerics", figuresHtml(plots, PlotGroup::numerics)},
+          {"errors", "Errors along the motion",
+           figuresHtml(plots,
+                       on_top ? std::vector{PlotGroup::errors} : std::vector{PlotGroup::errors, PlotGroup::sources})},
+          {"efforts", "Efforts", figuresHtml(plots, {PlotGroup::efforts})},
+          {"motion", "Motion", figuresHtml(plots, {PlotGroup::motion})},
+          {"reactions", "Reactions", figuresHtml(plots, {PlotGroup::reactions})},
+          {"numerics", "Numerics", figuresHtml(plots, {PlotGroup::numerics})},
           {"statistics", "Error statistics", statisticsTable(result)},
           {"input", "Input", cardOf(result, picture)},
           {"findings", "Findings", factsTable("Facts that are not judged", printed(findingTexts(result)))},
@@ -130,10 +133,11 @@ std::string reportHtml(const ValidationResult& result, Place place) {
                                 {"sentence", sentence(result)},
                                 {"motors", inWords(motors)},
                                 {"why", motors.empty() ? inWords(detail(result)) : ""},
+                                {"wide", firstGroup(charts) == PlotGroup::worst},
                                 {"machine", lineOf(result, picture.get())},
                                 {"figures", inWords(keyFiguresHtml(keyFigures(result)))},
-                                {"reason", powersInPrint(reason(result.verdict, result.checks))},
-                                {"sources", inWords(sources(charts))},
+                                {"reason", unbroken(reason(result.verdict, result.checks))},
+                                {"sources", inWords(figuresHtml(charts, {firstGroup(charts)}, "h2"))},
                                 {"stage", stageOf(result, picture.get())},
                                 {"in_suite", place == Place::in_suite},
                                 {"links", linksHtml(sections)},

@@ -98,8 +98,7 @@ Json weakJson(const Picture& picture) {
 
 nlohmann::ordered_json machineJson(const Picture& picture, const ValidationResult& result) {
   Json wrong = Json::array();  // legs, 0-based
-  for (const MotorDeviation& motor : motorsOff(result))
-    if (!motor.right) wrong.push_back(motorsOf(result)[static_cast<std::size_t>(motor.motor)].leg);
+  for (const int motor : markedOf(motorsOff(result))) wrong.push_back(legOf(result, motor));
   const AtInstants at(result.timeseries, picture.t);
   std::vector<std::string> efforts;
   for (const Indexed& effort : indexed(result.timeseries, "tau"))

@@ -56,8 +56,7 @@ nlohmann::ordered_json machineJson(const MechanismPicture& picture, const Valida
   Scene bodies = Scene::array(), joints = Scene::array(), wrong = Scene::array(), none = Scene::array();
   for (std::size_t b = 0; b < picture.bodies.size(); ++b) bodies.push_back(bodyScene(picture, b));
   for (const MechanismPicture::Joint& joint : picture.joints) joints.push_back(jointScene(joint));
-  for (const MotorDeviation& motor : motorsOff(result))
-    if (!motor.right) wrong.push_back(motor.motor);
+  for (const int motor : markedOf(motorsOff(result))) wrong.push_back(motor);
   const MechanismPicture::Body& output = picture.bodies[picture.output];
   std::vector<Vector3d> path;
   for (std::size_t k = 0; k < output.p.size(); ++k) path.push_back(placed(output, picture.output_point, k));

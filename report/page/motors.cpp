@@ -77,8 +77,6 @@ void addShares(const ValidationResult& result, std::vector<MotorDeviation>& moto
   }
 }
 
-std::string shareOfLargest(double share) { return share < 1e-6 ? plainNumber(share, 2) : percentText(share); }
-
 /// Returns "1.003 × expected" or "expected + 3 N"; empty if no single number explains the deviation.
 std::string patternText(const MotorDeviation& motor) {
   if (motor.right) return "";
@@ -97,12 +95,10 @@ std::string effortText(double value, const MotorDeviation& motor) {
 
 HtmlValue motorRow(const MotorDeviation& motor, const std::vector<std::string>& names) {
   return {{"motor", motorName(names, static_cast<std::size_t>(motor.motor))},
-          {"named", !names.empty()},
-          {"given", effortText(motor.given, motor)},
-          {"expected", effortText(motor.expected, motor)},
+          {"given", unbroken(effortText(motor.given, motor))},
+          {"expected", unbroken(effortText(motor.expected, motor))},
           {"right", motor.right},
           {"largest", quantity(motor.largest, motor.unit)},
-          {"share", shareOfLargest(motor.share)},
           {"at", fmt::format("{:.4g} s", motor.t)},
           {"pattern", patternText(motor)}};
 }
@@ -126,8 +122,23 @@ std::string motorsTable(const ValidationResult& result) {
   const auto row = [&names](const MotorDeviation& motor) { return motorRow(motor, names); };
   return rendered(motors_html, {{"patterns", patterns},
                                 {"named", !names.empty()},
-                                {"columns", (patterns ? 4 : 3) + (names.empty() ? 0 : 1)},
+                                {"columns", patterns ? 5 : 4},
                                 {"motors", listOf(motors, row)}});
+}
+
+std::optional<MotorDeviation> worstOf(const std::vector<MotorDeviation>& motors) {
+  std::optional<MotorDeviation> worst;
+  for (const MotorDeviation& motor : motors)
+    if (!motor.right && (!worst || exceeds(motor.share, worst->share))) worst = motor;
+  return worst;
+}
+
+std::vector<int> markedOf(const std::vector<MotorDeviation>& motors) {
+  std::vector<int> out;
+  for (const MotorDeviation& motor : motors)
+    if (!motor.right) out.push_back(motor.motor);
+  if (out.size() > 1 && out.size() == motors.size()) out = {worstOf(motors)->motor};
+  return out;
 }
 
 std::vector<MotorDeviation> motorsOff(const ValidationResult& result) {

@@ -8,7 +8,9 @@
 
 #include "model/mechanism_picture.h"
 #include "model/scenario.h"
+#include "report/page/sections.h"
 #include "report/text/mechanism_words.h"
+#include "report/text/quantity.h"
 #include "report/text/result_facts.h"
 #include "report/text/text.h"
 #include "validation/verdict/effort_words.h"
@@ -98,13 +100,17 @@ Motors motorsOf(const ValidationResult& result) {
   return out;
 }
 
+int legOf(const ValidationResult& result, int motor) { return motorsOf(result)[static_cast<std::size_t>(motor)].leg; }
+
 std::vector<Plot> plots(const ValidationResult& result) {
   std::vector<Plot> plots;
   for (const Curve& curve : result.curves)
     if (!curve.lines.empty() && !curve.x.empty()) plots.push_back(curvePlot(curve));
   const MechanismPicture* mechanism = result.mechanism.get();
+  const std::optional<MotorDeviation> worst = worstOf(motorsOff(result));
   addSeriesPlots(result.timeseries, motorsOf(result), result.deviation ? result.deviation->allowed : 0, plots,
-                 motorNames(result), mechanism == nullptr ? "" : mechanism->bodies[mechanism->output].name);
+                 motorNames(result), mechanism == nullptr ? "" : mechanism->bodies[mechanism->output].name,
+                 worst ? worst->motor : -1);
   std::stable_sort(plots.begin(), plots.end(), [](const Plot& a, const Plot& b) { return a.group < b.group; });
   for (Plot& plot : plots) sayEfforts(result.effort, plot);
   return plots;
@@ -153,8 +159,8 @@ std::string inWords(const Plot& plot) {
   if (largest == nullptr) return "Nothing to draw: every value is zero or not finite.";
   const std::string unit = largest->unit.empty() || largest->unit == "1" ? "" : " " + largest->unit;
   const std::string x = number(plot.x[row], 4);
-  return fmt::format("Largest: {} = {}{} at {}.", largest->label, number(largest->values[row], 4), unit,
-                     plot.over_time ? "t = " + x + " s" : plot.x_label + " = " + x);
+  return unbroken(fmt::format("Largest: {} = {}{} at {}.", largest->label, number(largest->values[row], 4), unit,
+                              plot.over_time ? "t = " + x + " s" : plot.x_label + " = " + x));
 }
 
 }  // namespace ursula::report

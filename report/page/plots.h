@@ -25,7 +25,7 @@ struct Line {
 };
 
 /// Groups of charts that answer one question.
-enum class PlotGroup { sources, errors, efforts, motion, reactions, numerics, relations };
+enum class PlotGroup { worst, sources, errors, efforts, motion, reactions, numerics, relations };
 
 struct Plot {
   std::string title;
@@ -62,8 +62,9 @@ std::vector<Indexed> indexed(const TimeSeries& series, const std::string& quanti
 /// Returns a chart's caption and a place for the script's drawing. `index` is the chart's index in the page's data.
 std::string figureHtml(const Plot& plot, std::size_t index, const char* heading);
 
-/// Returns the figures of one group side by side; "" if there is none.
-std::string figuresHtml(const std::vector<Plot>& plots, PlotGroup group);
+/// Returns the figures of groups side by side; "" if there is none.
+std::string figuresHtml(const std::vector<Plot>& plots, const std::vector<PlotGroup>& groups,
+                        const char* heading = "h3");
 
 /// Returns the replay's position error, m: the largest in each of a few equal parts of the rows, NaN for parts without
 /// one. Empty without a replay.
@@ -112,10 +113,14 @@ class TimePlots {
 /// The validated machine's motors; otherwise the paper's.
 Motors motorsOf(const ValidationResult& result);
 
+/// Returns the leg of a motor, both from 0.
+int legOf(const ValidationResult& result, int motor);
+
 /// Adds the charts of the time series. Its efforts are those of `motors`; `allowed` is a user's tolerance in their
-/// unit, 0 if there is none. `names` are the motors' of a mechanism, `output` that of the body whose path is shown.
+/// unit, 0 if there is none. `names` are the motors' of a mechanism, `output` that of the body whose path is shown. The
+/// charts of motor `worst`, from 0, are a group of their own.
 void addSeriesPlots(const TimeSeries& series, const Motors& motors, double allowed, std::vector<Plot>& plots,
-                    const std::vector<std::string>& names = {}, const std::string& output = "");
+                    const std::vector<std::string>& names = {}, const std::string& output = "", int worst = -1);
 
 /// "₁" for "1".
 std::string subscript(const std::string& index);

@@ -33,9 +33,6 @@ std::string machineLine(const Picture& picture);
 /// their decades. Empty if there are no errors.
 std::string statisticsTable(const ValidationResult& result);
 
-/// Returns the machine at the start of its motion, with its path, for readers without WebGL and for paper.
-std::string svgMachine(const Picture& picture);
-
 /// Deviation of one motor's efforts.
 struct MotorDeviation {
   int motor = 0;                   ///< 0-based
@@ -48,18 +45,28 @@ struct MotorDeviation {
   std::optional<double> offset;    ///< an offset that does so, in that unit
 };
 
+/// Returns the motor that is most off, as a share of the largest effort; nullopt if all are within their limits.
+std::optional<MotorDeviation> worstOf(const std::vector<MotorDeviation>& motors);
+
+/// Returns the numbers from 0 of the motors to be marked as wrong: if all of several are, the worst alone, since a mark
+/// on each would show nothing.
+std::vector<int> markedOf(const std::vector<MotorDeviation>& motors);
+
 /// Returns the deviation of every motor from the columns of the subject's and Simbody's efforts. Empty if no check says
 /// that efforts are wrong, or if the columns are missing.
 std::vector<MotorDeviation> motorsOff(const ValidationResult& result);
 
-/// The same of a mechanism, with its motors' names; those that are wrong are marked.
-std::string svgMachine(const MechanismPicture& picture, const std::vector<MotorDeviation>& motors);
+/// Returns the machine at the start of its motion, with its path and the legs' numbers, for readers without WebGL and
+/// for paper. The legs in `wrong`, from 0, are marked.
+std::string svgMachine(const Picture& picture, const std::vector<int>& wrong);
+/// The same of a mechanism, with its motors' names; `wrong` are numbers of motors.
+std::string svgMachine(const MechanismPicture& picture, const std::vector<int>& wrong);
 
 /// "1.003", or "(1 + 10⁻⁶)" where few digits would hide the difference.
 std::string factorText(double factor);
 
-/// Returns a row for each motor: its deviation, the instant, and the one number that would correct it. Empty if
-/// motorsOff is.
+/// Returns a row for each motor: given and expected where they differ most, the difference, the instant, and the one
+/// number that would correct it. Empty if motorsOff is.
 std::string motorsTable(const ValidationResult& result);
 
 }  // namespace ursula::report

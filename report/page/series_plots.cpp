@@ -107,7 +107,7 @@ void addPower(TimePlots& time, const std::vector<Indexed>& efforts, const Motors
   time.keep(std::move(power));
 }
 
-void addEfforts(TimePlots& time, const Motors& motors, double allowed) {
+void addEfforts(TimePlots& time, const Motors& motors, double allowed, int worst) {
   const TimeSeries& series = time.series();
   const std::vector<Indexed> efforts = indexed(series, "tau"), expected = indexed(series, "simbody_tau");
   Plot all = time.plot(PlotGroup::efforts, "Efforts of the motors", effortLabel("effort", efforts));
@@ -118,8 +118,17 @@ void addEfforts(TimePlots& time, const Motors& motors, double allowed) {
   if (efforts.size() != expected.size()) return;
   for (std::size_t k = 0; k < efforts.size(); ++k) {
     const std::string unit = prettyUnit(efforts[k].unit);
-    Plot motor = time.plot(PlotGroup::efforts, time.motor(efforts[k].index) + ": effort less expected",
-                           fmt::format("deviation ({})", unit));
+    const bool is_worst = static_cast<int>(k) == worst;
+    if (is_worst) {
+      Plot both = time.plot(PlotGroup::worst, time.motor(efforts[k].index) + ": given and expected effort",
+                            fmt::format("effort ({})", unit));
+      time.addValues(both, *expected[k].values, {"expected", unit, static_cast<int>(k), Stroke::ghost, {}});
+      time.addValues(both, *efforts[k].values, {"given", unit, static_cast<int>(k), Stroke::line, {}});
+      time.keep(std::move(both));
+    }
+    Plot motor =
+        time.plot(is_worst ? PlotGroup::worst : PlotGroup::efforts,
+                  time.motor(efforts[k].index) + ": effort less expected", fmt::format("deviation ({})", unit));
     time.addValues(motor, differences(*efforts[k].values, *expected[k].values, false),
                    {time.label("τ", efforts[k].index) + " − expected", unit, static_cast<int>(k), Stroke::line, {}});
     for (const double side : {1.0, -1.0}) addEffortLimit(time, motor, efforts[k], allowed, side);
@@ -209,11 +218,11 @@ void addReactions(TimePlots& time) {
 }  // namespace
 
 void addSeriesPlots(const TimeSeries& series, const Motors& motors, double allowed, std::vector<Plot>& plots,
-                    const std::vector<std::string>& names, const std::string& output) {
+                    const std::vector<std::string>& names, const std::string& output, int worst) {
   TimePlots time(series, plots, names);
   if (time.empty()) return;
   addErrors(time, allowed);
-  addEfforts(time, motors, allowed);
+  addEfforts(time, motors, allowed, worst);
   addMotion(time);
   addMotorMotion(time, output);
   addReactions(time);
@@ -230,10 +239,11 @@ std::string figureHtml(const Plot& plot, std::size_t index, const char* heading)
          "\n";
 }
 
-std::string figuresHtml(const std::vector<Plot>& plots, PlotGroup group) {
+std::string figuresHtml(const std::vector<Plot>& plots, const std::vector<PlotGroup>& groups, const char* heading) {
   std::string out;
-  for (std::size_t i = 0; i < plots.size(); ++i)
-    if (plots[i].group == group) out += figureHtml(plots[i], i, "h3");
+  for (const PlotGroup group : groups)
+    for (std::size_t i = 0; i < plots.size(); ++i)
+      if (plots[i].group == group) out += figureHtml(plots[i], i, heading);
   return out.empty() ? "" : "<div class=\"charts\">\n" + out + "</div>";
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-constexpr double frame_width = 640, frame_height = 420, frame_margin = 24;
+constexpr double frame_width = 640, frame_height = 420, frame_margin = 30;
 
 /// A parallel projection from above and to the side.
 Point projected(const Vector3d& v) {
@@ -85,9 +85,21 @@ std::string leg(const Picture::Leg& leg, int color, const Sheet& sheet) {
   return out;
 }
 
+/// The legs' numbers below their first joints.
+std::string numbered(const Picture& picture, const std::vector<int>& wrong, const Sheet& sheet) {
+  std::string out;
+  for (std::size_t k = 0; k < picture.legs.size(); ++k) {
+    const bool is_wrong = std::find(wrong.begin(), wrong.end(), static_cast<int>(k)) != wrong.end();
+    const Point at = sheet.at(picture.legs[k].links.front().from.front());
+    out += fmt::format("<text class=\"motor{}\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}{}</text>",
+                       is_wrong ? " wrong" : "", at.x(), at.y() + 19, is_wrong ? "✗ leg " : "", k + 1);
+  }
+  return out;
+}
+
 }  // namespace
 
-std::string svgMachine(const Picture& picture) {
+std::string svgMachine(const Picture& picture, const std::vector<int>& wrong) {
   if (picture.t.empty()) return "";
   Sheet sheet;
   std::vector<Vector3d> base, platform = {picture.p.front()};
@@ -100,7 +112,8 @@ std::string svgMachine(const Picture& picture) {
   for (const Vector3d& p : picture.p) sheet.include(p);
   std::string out = polygon("base", outline(base), sheet, true);
   for (std::size_t k = 0; k < picture.legs.size(); ++k) out += leg(picture.legs[k], static_cast<int>(k % 7), sheet);
-  out += polygon("platform", outline(platform), sheet, true) + polygon("path", picture.p, sheet, false);
+  out += polygon("platform", outline(platform), sheet, true) + polygon("path", picture.p, sheet, false) +
+         numbered(picture, wrong, sheet);
   return fmt::format(
       "<svg class=\"machine\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
       "aria-label=\"The machine at the start of its motion, with the path of P\">{}</svg>",

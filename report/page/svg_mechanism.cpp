@@ -130,16 +130,16 @@ double scaleOf(const MechanismPicture& picture, const Vector3d& forward, const D
   return Projection(picture, forward, area).scale();
 }
 
-std::string svgMachine(const MechanismPicture& picture, const std::vector<MotorDeviation>& motors) {
-  std::vector<bool> wrong(picture.motors.size(), false);
-  for (const MotorDeviation& motor : motors)
-    if (const auto k = static_cast<std::size_t>(motor.motor); k < wrong.size()) wrong[k] = !motor.right;
+std::string svgMachine(const MechanismPicture& picture, const std::vector<int>& wrong) {
+  std::vector<bool> marked(picture.motors.size(), false);
+  for (const int motor : wrong)
+    if (const auto k = static_cast<std::size_t>(motor); k < marked.size()) marked[k] = true;
   const DrawingArea area{0, 0, 640, 420};
   return fmt::format(
       "<svg class=\"machine\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
       "aria-label=\"The machine at the start of its motion, with the path of {}\">{}</svg>",
       area.width, area.height, escaped(picture.bodies[picture.output].name),
-      drawn(picture, viewOf(picture), area, wrong));
+      drawn(picture, viewOf(picture), area, marked));
 }
 
 }  // namespace ursula::report

@@ -91,18 +91,12 @@ CheckWords checkWords(const std::string& check, const std::string& kind) {
 
 std::string worstMotor(const ValidationResult& result) {
   const std::vector<std::string> names = motorNames(result);
-  std::vector<MotorDeviation> motors = motorsOff(result);
-  motors.erase(std::remove_if(motors.begin(), motors.end(), [](const MotorDeviation& each) { return each.right; }),
-               motors.end());
-  if (names.empty() || motors.empty()) return "";
-  const auto isLess = [](const MotorDeviation& a, const MotorDeviation& b) {
-    return !std::isnan(a.largest) && (a.share < b.share || std::isnan(b.largest));
-  };
-  const MotorDeviation& worst = *std::max_element(motors.begin(), motors.end(), isLess);
-  return fmt::format("{} was given {} where {} is expected, {}at t = {:.4g} s",
-                     motorName(names, static_cast<std::size_t>(worst.motor)),
-                     toldApart(worst.given, worst.expected, worst.unit),
-                     toldApart(worst.expected, worst.given, worst.unit), offText(worst), worst.t);
+  const std::optional<MotorDeviation> worst = worstOf(motorsOff(result));
+  if (!worst) return "";
+  return fmt::format("{}{} was given {} where {} is expected, {}at t = {:.4g} s", names.empty() ? "motor " : "",
+                     motorName(names, static_cast<std::size_t>(worst->motor)),
+                     toldApart(worst->given, worst->expected, worst->unit),
+                     toldApart(worst->expected, worst->given, worst->unit), offText(*worst), worst->t);
 }
 
 std::string mechanismLine(const MechanismPicture& picture) {

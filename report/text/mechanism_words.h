@@ -24,7 +24,7 @@ struct CheckWords {
 CheckWords checkWords(const std::string& check, const std::string& kind);
 
 /// Returns "crank was given 3.06 N·m where 3.03 N·m is expected, 1 % of the largest torque too much, at t = 0.3 s" for
-/// the motor that is most off; empty for a manipulator, or if no effort is wrong.
+/// the motor that is most off, "motor 3 was …" of a manipulator; empty if no effort is wrong.
 std::string worstMotor(const ValidationResult& result);
 
 /// Returns "3 motors drive 13 bodies through 18 joints, 6 of which close loops · delta.xml · fourier, 2 s".

@@ -89,6 +89,42 @@ std::string powersInPrint(const std::string& text) {
   return out + text.substr(static_cast<std::size_t>(from));
 }
 
+namespace {
+
+bool isUnit(std::string word) {
+  static const std::regex unit(
+      "(%|°|px|(f|p|n|µ|m|k|M|G)?(m|s|N|rad|g|J|W|A|V|Hz|lbf|ozf|kgf)((·|\\*|/)[A-Za-z].*|²|³)?)");
+  while (!word.empty() && std::string_view(",.;:)").find(word.back()) != std::string_view::npos) word.pop_back();
+  return std::regex_match(word, unit);
+}
+
+bool endsInDigit(const std::string& word) {
+  static const std::regex number("(.*[0-9]|.*(⁰|¹|²|³|⁴|⁵|⁶|⁷|⁸|⁹)|∞)");
+  return std::regex_match(word, number);
+}
+
+bool isSign(const std::string& word) { return word == "=" || word == "±" || word == "×"; }
+
+}  // namespace
+
+std::string unbroken(const std::string& text) {
+  static const std::regex minus("(^|[ (\\[])-(?=[0-9])");
+  std::string plain = powersInPrint(text);
+  for (const auto& [from, to] : {std::pair("^2", "²"), {" +- ", " ± "}, {"N m", "N·m"}})
+    plain = replaced(plain, from, to);
+  plain = std::regex_replace(plain, minus, "$1−");
+  std::string out, last;
+  for (std::size_t from = 0; from <= plain.size();) {
+    const std::size_t to = std::min(plain.find(' ', from), plain.size());
+    const std::string word = plain.substr(from, to - from);
+    const bool together = (endsInDigit(last) && isUnit(word)) || isSign(word) || isSign(last);
+    out += (from == 0 ? "" : together ? joined : " ") + word;
+    last = word;
+    from = to + 1;
+  }
+  return out;
+}
+
 std::string formulaInPrint(const std::string& text) {
   static const std::regex eps("\\beps\\b");
   std::string out = std::regex_replace(powersInPrint(text), eps, "ε");

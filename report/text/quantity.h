@@ -17,6 +17,10 @@ std::string plainNumber(double value, int digits = 3);
 /// The text with every 2.75e+13 as 2.75 × 10¹³.
 std::string powersInPrint(const std::string& text);
 
+/// The text for a page, in which no line ends within a number or between a number and its unit: "t = 3 s" with spaces
+/// that do not break, a minus sign for a hyphen before a number, "m/s^2" as m/s², powers as powersInPrint writes them.
+std::string unbroken(const std::string& text);
+
 /// The text of a limit or a finding as in print: "eps kappa(B)^2 x ||T||" → "ε κ(B)² × ‖T‖".
 std::string formulaInPrint(const std::string& text);
 

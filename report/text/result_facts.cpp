@@ -71,6 +71,13 @@ std::string lower(std::string text) {
   return text;
 }
 
+/// The text as `unbroken` has it, but for the name of a file or a command.
+std::string unbrokenBut(const std::string& name, const std::string& text) {
+  const std::size_t at = name.empty() ? std::string::npos : text.find(name);
+  if (at == std::string::npos) return unbroken(text);
+  return unbroken(text.substr(0, at)) + name + unbroken(text.substr(at + name.size()));
+}
+
 std::string drives(const ResultFacts& facts) {
   if (std::isnan(facts.replay)) return facts.subject + " hold";
   const std::string windows = facts.windows > 1 ? fmt::format(", in {} windows", facts.windows) : "";
@@ -78,11 +85,14 @@ std::string drives(const ResultFacts& facts) {
                      quantity(facts.replay, "m"), quantity(facts.duration, "s"), windows);
 }
 
+/// A share of the largest effort: in percent unless it is tiny.
+std::string sizeOf(double share) { return share < 1e-6 ? plainNumber(share, 2) : percentText(share); }
+
 std::string agrees(const ResultFacts& facts) {
   if (facts.engines < 2 || std::isnan(facts.agreement)) return "";
   std::string share =
-      facts.agreement > 0 ? "to " + plainNumber(facts.agreement, 2) + " of the largest effort" : "to the last digit";
-  if (facts.allowed > 0) share += ", your tolerance is " + plainNumber(facts.allowed, 2);
+      facts.agreement > 0 ? "to " + sizeOf(facts.agreement) + " of the largest effort" : "to the last digit";
+  if (facts.allowed > 0) share += ", your tolerance is " + sizeOf(facts.allowed);
   return facts.engines == 2 ? "; Simbody's own inverse dynamics agree " + share
                             : fmt::format("; {} independent formulations agree {}", inWords(facts.engines), share);
 }
@@ -90,12 +100,11 @@ std::string agrees(const ResultFacts& facts) {
 /// Returns ". Likely cause: platform mass 303 ± 1 kg". A share that lacks only rounding becomes "all of it". Words that
 /// claim no cause follow after `mark`.
 std::string inPrint(const CauseWords& words, const char* mark) {
-  std::string cause = powersInPrint(words.cause);
-  for (const auto& [from, to] :
-       {std::pair<std::string, std::string>{" +- ", " ± "},
-        {", which explains more than 99.9999 % of the deviation", ", which explains all of it"}})
-    for (std::size_t at = cause.find(from); at != std::string::npos; at = cause.find(from, at + to.size()))
-      cause.replace(at, from.size(), to);
+  std::string cause = words.cause;
+  const std::string nearly = ", which explains more than 99.9999 % of the deviation",
+                    all = ", which explains all of it";
+  for (std::size_t at = cause.find(nearly); at != std::string::npos; at = cause.find(nearly, at + all.size()))
+    cause.replace(at, nearly.size(), all);
   switch (words.claim) {
     case CauseClaim::none:
     case CauseClaim::interval:
@@ -176,26 +185,27 @@ ResultFacts factsOf(const ValidationResult& result) {
 
 std::string sentence(const ValidationResult& result) {
   const ResultFacts facts = factsOf(result);
+  const std::string& name = result.subject.name;
   switch (result.verdict) {
     case Verdict::fail:
-      return failed(result, facts);
+      return unbrokenBut(name, failed(result, facts));
     case Verdict::inconclusive:
-      return undecided(result);
+      return unbroken(undecided(result));
     case Verdict::pass:
     case Verdict::not_applicable:
       break;
   }
-  return drives(facts) + inEffortWords(result.effort, agrees(facts)) + ".";
+  return unbrokenBut(name, drives(facts) + inEffortWords(result.effort, agrees(facts)) + ".");
 }
 
 std::string detail(const ValidationResult& result) {
   const ResultFacts facts = factsOf(result);
   if (result.verdict == Verdict::pass) return "";
-  if (!facts.wrong.off.empty()) return capital(prettyUnit(facts.wrong.off)) + ".";
+  if (!facts.wrong.off.empty()) return capital(unbroken(facts.wrong.off)) + ".";
   const Check* worst = worstCheck(result.checks);
   const bool said = result.verdict != Verdict::fail || worst == nullptr || worst->why.empty() ||
                     !std::isfinite(worst->value) || !std::isfinite(worst->limit);
-  return said ? "" : capital(worst->why) + ".";
+  return said ? "" : capital(unbroken(worst->why)) + ".";
 }
 
 std::vector<KeyFigure> keyFigures(const ValidationResult& result) {
@@ -209,9 +219,7 @@ std::vector<KeyFigure> keyFigures(const ValidationResult& result) {
     out.push_back({"off the path", quantity(facts.replay, "m"),
                    std::isnan(facts.replay_limit) ? "" : "limit " + quantity(facts.replay_limit, "m")});
   if (!std::isnan(facts.agreement))
-    out.push_back({"largest effort deviation",
-                   facts.agreement >= 1e-6 ? percentText(facts.agreement) : plainNumber(facts.agreement, 2),
-                   "of the largest effort"});
+    out.push_back({"largest effort deviation", sizeOf(facts.agreement), "of the largest effort"});
   const bool passed =
       result.verdict == Verdict::pass && facts.dominant == ErrorSource::unexplained;  // then nothing is missing
   if (facts.dominant && facts.wrong.cause.empty() && !passed)

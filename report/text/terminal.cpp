@@ -240,9 +240,14 @@ std::string reasonsText(const ValidationResult& result) {
   return out.empty() ? "" : "\n" + out;
 }
 
+/// The motor that is most off; that of a manipulator is in the sentence on the deviation.
+std::string worstOfMechanism(const ValidationResult& result) {
+  return result.mechanism == nullptr ? "" : worstMotor(result);
+}
+
 /// The verdict with its size and its cause.
 std::string headText(const ValidationResult& result, const std::string& verdict) {
-  const std::string deviation = deviationSentence(result), worst = worstMotor(result);
+  const std::string deviation = deviationSentence(result), worst = worstOfMechanism(result);
   std::string out = fmt::format("{}: {}\nverdict: {} — {}\n", withoutControls(result.scenario), verdict, verdict,
                                 reason(result.verdict, result.checks));
   if (!deviation.empty()) out += deviation + "\n";
@@ -275,7 +280,7 @@ std::string quietText(const ValidationResult& result, bool coloured) {
   std::string out = quietHead(suiteEntry(result, ""), coloured);
   const CauseWords& words = result.cause_words;
   if (!words.cause.empty() && out.back() == '.') out.pop_back();
-  if (const std::string worst = worstMotor(result); !worst.empty()) out += " — " + withoutControls(worst);
+  if (const std::string worst = worstOfMechanism(result); !worst.empty()) out += " — " + withoutControls(worst);
   if (!words.cause.empty()) out += "; " + causeText(words);
   return inOneLine(out);
 }

@@ -1,7 +1,9 @@
 import { colorOf, dashOf, widthOf } from "./line_style.js";
 
 const sample = (line) =>
-  `<svg width="26" height="8" aria-hidden="true"><path d="M0 4H26" fill="none" stroke="${colorOf(line)}"
+  line.stroke === "points"
+    ? `<svg width="10" height="8" aria-hidden="true"><circle cx="5" cy="4" r="3" fill="${colorOf(line)}"/></svg>`
+    : `<svg width="26" height="8" aria-hidden="true"><path d="M0 4H26" fill="none" stroke="${colorOf(line)}"
     stroke-width="${widthOf(line)}" stroke-dasharray="${dashOf(line).join(" ")}"/></svg>`;
 
 // A sample of the line shows its dashes, unlike uPlot's own square markers. A button hides the line, so that the

@@ -37,7 +37,7 @@ function button(text, title, action) {
 }
 
 /** Buttons below a chart: one shows the whole range again, the others save it as a file. */
-export function addTools(host, chart, plot, scenario) {
+export function addTools(host, chart, plot, { scenario, machine }) {
   const bar = document.createElement("div");
   bar.className = "tools";
   const whole = () => chart.setScale("x", { min: plot.x[0], max: plot.x.at(-1) });
@@ -51,7 +51,7 @@ export function addTools(host, chart, plot, scenario) {
   );
   if (plot.rows > plot.x.length) {
     const note = document.createElement("span");
-    note.textContent = `Least and largest of ${plot.rows} instants; all are in timeseries.csv.`;
+    note.textContent = `Least and largest of ${plot.rows} instants${machine ? "; all are in timeseries.csv" : ""}.`;
     bar.append(note);
   }
   host.append(bar);

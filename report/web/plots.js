@@ -62,6 +62,7 @@ function drawEvents(chart, events) {
   const { ctx, bbox } = chart;
   ctx.save();
   ctx.strokeStyle = ctx.fillStyle = color("quiet");
+  ctx.lineWidth = uPlot.pxRatio; // not that of the last line
   ctx.setLineDash([2, 4]);
   for (const { t } of events) {
     if (t < chart.scales.x.min || t > chart.scales.x.max) continue;
@@ -191,7 +192,7 @@ function drawChart(host, plot, data, clock, together, legends) {
   chart.ctx.canvas.setAttribute("aria-label", plot.description);
   drawLegend(chart, plot);
   if (plot.overTime) together.charts.add(chart);
-  addTools(host, chart, plot, data.scenario);
+  addTools(host, chart, plot, data);
   if (plot.overTime) follow(host, chart, plot, clock, legends);
   return (size = { width: host.clientWidth, height: screen_height }) => {
     drawLegend(chart, plot);

@@ -37,7 +37,7 @@ tools.className = "filter";
 tools.innerHTML = `<label>Find <input type="search"></label>
   <label>${sorted[0].textContent} <select><option value="">all</option></select></label> <span role="status"></span>`;
 for (const [value, text] of choices) tools.querySelector("select").add(new Option(text, value));
-table.parentElement.before(tools);
+table.before(tools);
 const [text, verdict, shown] = [tools.querySelector("input"), tools.querySelector("select"), tools.querySelector("[role]")];
 
 function filter() {

@@ -115,8 +115,39 @@ TEST(MechanismPage, beginsWithTheWorstMotor) {
   EXPECT_TRUE(contains(said, "3.03 N·m where 3 N·m is expected") ||
               contains(said, "3.03\u00a0N·m where 3\u00a0N·m is expected"))
       << said;
-  EXPECT_TRUE(contains(said, "(1 % of the largest)")) << said;
+  EXPECT_TRUE(contains(said, "(1\u00a0% of the largest)")) << said;
   EXPECT_FALSE(contains(report::sentence(sampleOf(1)), "crank_hinge")) << "of right efforts none is the worst";
+}
+
+/// The page of any machine: the motor's two curves and their difference are the first charts.
+TEST(MechanismPage, drawsTheWorstMotorFirst) {
+  const auto first = [](const ValidationResult& result) { return report::plots(result).front(); };
+  const report::Plot plot = first(sampleOf(1.01));
+  EXPECT_EQ(plot.title, "crank_hinge: given and expected effort");
+  ASSERT_EQ(plot.lines.size(), 2u);
+  EXPECT_EQ(plot.lines[0].label, "expected");
+  EXPECT_EQ(first(test::externalSample()).group, report::PlotGroup::worst);
+  EXPECT_NE(first(sampleOf(1)).group, report::PlotGroup::worst) << "of right efforts none is the worst";
+}
+
+/// Red where it tells something: a mark on each motor would not.
+TEST(Marks, areOnWrongMotorsUnlessAllAre) {
+  std::vector<report::MotorDeviation> motors(3);
+  for (int k = 0; k < 3; ++k) motors[k].motor = k, motors[k].share = k == 1 ? 0.5 : 0.1;
+  EXPECT_EQ(report::markedOf(motors), std::vector<int>{1});
+  motors[1].right = true;
+  EXPECT_EQ(report::markedOf(motors), (std::vector<int>{0, 2}));
+  for (report::MotorDeviation& motor : motors) motor.right = true;
+  EXPECT_TRUE(report::markedOf(motors).empty());
+  EXPECT_FALSE(report::worstOf(motors).has_value());
+}
+
+TEST(Unbroken, keepsNumbersAndUnitsOnOneLine) {
+  EXPECT_EQ(report::unbroken("at t = 0.3 s by 1.61e-06 m within 2 runs"),
+            "at t\u00a0=\u00a00.3\u00a0s by 1.61\u00a0×\u00a010⁻⁶\u00a0m within 2 runs");
+  EXPECT_EQ(report::unbroken("z 0 +- 1e-14 m/s^2 instead of -9.81, 5 m."),
+            "z 0\u00a0±\u00a010⁻¹⁴\u00a0m/s² instead of −9.81, 5\u00a0m.");
+  EXPECT_EQ(report::unbroken("leg 3 moves, a-1 stays, 2 samples"), "leg 3 moves, a-1 stays, 2 samples");
 }
 
 TEST(MechanismPage, namesMotorsAndSpeaksOfNoLegs) {

@@ -268,9 +268,9 @@ TEST(Sentence, saysWhatWasFound) {
             "The NOC's efforts do not hold. Efforts against Simbody: off by 41.3 N·m, where 410 pN·m is the limit.");
   wrong.cause_words = {"", "a factor of 1.001 on leg 3"};
   EXPECT_EQ(plain(report::sentence(wrong)), "The NOC's efforts are wrong. Likely cause: a factor of 1.001 on leg 3.");
-  EXPECT_EQ(report::sentence(test::inconclusiveSample()),
-            "Nothing failed, but one check cannot be judged here: amplification 3.1e14 leaves no digit of a double to "
-            "judge by.");
+  EXPECT_EQ(plain(report::sentence(test::inconclusiveSample())),
+            "Nothing failed, but one check cannot be judged here: amplification 3.1 × 10¹⁴ leaves no digit of a double "
+            "to judge by.");
 }
 
 TEST(HtmlTemplate, isFilledOnceAndCompletely) {

@@ -175,7 +175,7 @@ test("a failed report says so, first and unfolded", async () => {
 test("wrong efforts of a file lead with the likely cause", async () => {
   const report = await opened("external/report.html");
   const header = await report.page.locator("header").innerText();
-  assert.match(header, /The efforts of leg3\.csv are wrong\. Likely cause: a factor of 1\.001 on leg 3\./);
+  assert.match(header, /The efforts of leg3\.csv are wrong: motor 3 was given .* is expected, off by .*\. Likely cause: a factor of 1\.001 on leg 3\./);
   assert.equal(header.match(/Likely cause/g).length, 1);
   assert.match(await report.page.locator("#provenance").innerText(), /--torques leg3\.csv/);
   assertQuietAndOffline(report);
@@ -255,6 +255,7 @@ test("the index leads to every report, sorts and filters", async () => {
   await page.getByRole("button", { name: "Seconds" }).click();
   await page.getByRole("button", { name: "Seconds" }).click();
   assert.match(await page.locator("tr.scenario").first().innerText(), /near-singular[\s\S]*\t4\.4\t/);
+  assert.match(await page.locator("tr.scenario", { hasText: "leg 3" }).first().innerText(), /likely cause: a factor of 1\.001 on leg 3/i);
   assert.equal(await page.locator("tr.scenario svg.spark").count(), 3);
   assertQuietAndOffline(index);
   await page.getByRole("link", { name: "near-singular" }).click();
@@ -267,6 +268,33 @@ for (const file of ["passed/report.html", "failed/report.html", "not judgeable/r
     await page.evaluate(() => document.querySelectorAll("details").forEach((element) => (element.open = true)));
     assert.deepEqual(await seriousFindings(page), []);
   });
+
+for (const file of ["passed/report.html", "failed/report.html", "not judgeable/report.html", "external/report.html", "index.html"])
+  test(`${file} is whole at every width`, async () => {
+    const { page } = await opened(file);
+    for (const width of [1280, 390]) {
+      await page.setViewportSize({ width, height: 800 });
+      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0, `${width} px`);
+    }
+    // Rows of the suite are blocks on a phone: no cell is out of sight.
+    const right = await page.locator(".suite td, .suite th:not([hidden])").evaluateAll((cells) => Math.max(0, ...cells.map((cell) => cell.getBoundingClientRect().right)));
+    assert.ok(right <= 390, `a cell ends at ${right} px`);
+  });
+
+test("the rows of a suite begin on the first screen, before any upright head", async () => {
+  const { page } = await opened("index.html");
+  const top = (selector) => page.locator(selector).first().evaluate((element) => element.getBoundingClientRect().top);
+  assert.ok((await top("tr.scenario")) < 400);
+  assert.ok((await top(".upright")) > (await top("tr.scenario")));
+});
+
+test("wrong efforts are drawn first, then the machine; the replay's sources come later", async () => {
+  const { page } = await opened("external/report.html");
+  const titles = await page.locator("figcaption").allInnerTexts();
+  assert.match(titles[0], /^Motor 3: given and expected/);
+  assert.match(titles[1], /^Motor 3: .* less expected/);
+  assert.match(await page.locator("table.motors thead").innerText(), /given\s+expected\s+off by/);
+});
 
 test("the parsers of a browser accept the JUnit files", async () => {
   const { page } = await opened("index.html");

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <regex>
 
 #include "parts/engines/side_by_side/side_by_side.h"
 #include "report/page/html_template.h"
 #include "report/page/page.h"
 #include "report/text/quantity.h"
+#include "report/text/text.h"
 
 namespace ursula {
 
@@ -21,6 +24,9 @@ std::string nameOf(const EngineResult& engine) {
   return engine.version.empty() ? engine.kind->name : fmt::format("{} {}", engine.kind->name, engine.version);
 }
 
+/// The length of an error's bar in percent: decades from rounding to ten times the largest effort.
+double barOf(double error) { return std::clamp(100 * (std::log10(error) + 16) / 17, 1.0, 100.0); }
+
 HtmlValue effortRow(const SideBySide& found, const EngineResult& engine, const RecipeResult& each) {
   const bool has_answer = each.refused.empty();
   const auto only = [has_answer](const std::string& text) { return has_answer ? text : std::string(); };
@@ -29,6 +35,7 @@ HtmlValue effortRow(const SideBySide& found, const EngineResult& engine, const R
           {"obvious", each.recipe == engine.kind->obvious},
           {"refused", each.refused},
           {"effort", only(errorText(each.error))},
+          {"bar", has_answer && each.error > 0 ? fmt::format("{:.0f}", barOf(each.error)) : ""},
           {"worst", only(worstText(each, found))},
           {"power", only(errorText(each.power))},
           {"gap", only(quantity(engine.gap, "m"))},
@@ -97,10 +104,16 @@ std::string codeBlocks(const SideBySide& found) {
   return rendered(engines_code_html, {{"blocks", blocks}}) + "\n";
 }
 
+/// The sentence as HTML, with the engines' calls as code.
+std::string withCalls(const std::string& text) {
+  static const std::regex call("\\b(calc|mj_|compute|get)[A-Za-z_]+");
+  return std::regex_replace(report::escaped(text), call, "<code>$&</code>");
+}
+
 std::string sentences(const SideBySide& found) {
   std::vector<std::string> out;
-  for (const EngineResult& engine : found.engines) out.push_back(sentence(engine));
-  for (const LoopEngineKind* kind : found.missing) out.push_back(sentenceOfMissing(*kind));
+  for (const EngineResult& engine : found.engines) out.push_back(withCalls(sentence(engine)));
+  for (const LoopEngineKind* kind : found.missing) out.push_back(report::escaped(sentenceOfMissing(*kind)));
   return rendered(engines_sentences_html, {{"sentences", out}}) + "\n";
 }
 
@@ -114,11 +127,13 @@ std::string sideBySideHtml(const SideBySide& found) {
                                       : "efforts of the motors by each engine, against the complement of the loops";
   page.sentence = sentence(found);
   page.remarks = remarks(found);
-  page.sections = {{"right", "How to get it right, and how wrong the obvious call is", sentences(found)},
-                   {"efforts", "Efforts", effortsTable(found)},
-                   {"code", "The exact recipe in each engine's own calls", codeBlocks(found)},
-                   {"time", "The closed loop in time", inTimeTable(found)}};
-  page.style = ".wide caption { max-width: calc(100vw - 2.5rem); }";  // it is read without scrolling a wide table
+  page.sections = {{"efforts", "Efforts", effortsTable(found)},
+                   {"right", "Recipes", sentences(found)},
+                   {"code", "Code", codeBlocks(found)},
+                   {"time", "In time", inTimeTable(found)}};
+  page.style =
+      ".bars { min-width: 6rem; }"
+      ".wide caption { max-width: calc(100vw - 2.5rem); }";  // it is read without scrolling a wide table
   page.footer =
       "<p>The same in numbers: <a href=\"engines.json\">engines.json</a>, <a href=\"engines.csv\">engines.csv</a>; "
       "all efforts: <a href=\"efforts.csv\">efforts.csv</a>. "

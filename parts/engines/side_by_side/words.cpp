@@ -168,7 +168,7 @@ std::string sentence(const SideBySide& found) {
   with_users.pop_back();
   return fmt::format("{}; what users of {}{}{} call first is off by {}{}.", out, fmt::join(with_users, ", "),
                      with_users.empty() ? "" : " and ", last, errorText(least),
-                     least == most ? "" : " to " + errorText(most));
+                     errorText(least) == errorText(most) ? "" : " to " + errorText(most));
 }
 
 std::string sentenceOfMissing(const LoopEngineKind& kind) {

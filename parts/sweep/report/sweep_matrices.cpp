@@ -92,7 +92,7 @@ std::string tiesTable(const SweepSummary& summary, const ShownColumns& shown, co
   const auto head = [&summary](std::size_t k) { return breakable(titleOf(summary.outputs[k])); };
   const auto row = [&](std::size_t p) {
     const auto cell = [&](std::size_t k) { return tie_of(summary.outputs[k].relations[p]); };
-    return HtmlValue{{"key", summary.parameters[p].key}, {"cells", listOf(shown.outputs, cell)}};
+    return HtmlValue{{"key", keyWords(summary.parameters[p].key)}, {"cells", listOf(shown.outputs, cell)}};
   };
   return rendered(sweep_ties_html, {{"table", !shown.outputs.empty() && !shown.parameters.empty()},
                                     {"caption", caption},
@@ -140,7 +140,7 @@ std::string driversTable(const SweepSummary& summary) {
   const auto row = [&](std::size_t p) {
     const Relation& relation = output.relations[p];
     const double share = has_index ? relation.first_order : std::abs(relation.spearman);
-    return HtmlValue{{"key", summary.parameters[p].key},
+    return HtmlValue{{"key", keyWords(summary.parameters[p].key)},
                      {"width", fmt::format("{:.1f}", 100 * std::clamp(share, 0.0, 1.0))},
                      {"index", shareNumber(relation.first_order)},
                      {"rank", signedNumber(relation.spearman)},

@@ -49,7 +49,7 @@ void writeSweepCsv(Sqlite& database, const std::function<void(std::string_view)>
 std::string grouped(std::int64_t count);
 
 /// Returns words for the points of that verdict: "passed", "out of reach", ….
-std::string verdictWords(const std::string& verdict);
+std::string verdictWords(const std::string& verdict, bool judges = true);
 
 /// Returns an output's title: "Effort of motor 3", the check's title, …
 std::string titleOf(const SweepOutput& output);
@@ -60,6 +60,9 @@ std::string saidOf(const SweepOutput& output, double value);
 
 /// Returns a dotted name as HTML that may break after each dot.
 std::string breakable(const std::string& name);
+
+/// Returns the key of a number in words: "manipulator.platform.center_of_mass.2" → "platform mass centre z (m)".
+std::string keyWords(const std::string& key);
 
 /// Formats a correlation or an index: "+0.78", "0.62"; "–" if there is none.
 std::string signedNumber(double value);

@@ -60,7 +60,7 @@ std::vector<report::PageFigure> figuresOf(const SweepSummary& summary) {
                  "of " + grouped(summary.identity.points)});
   for (const char* verdict : {"pass", "fail", "error", "inconclusive", "out_of_reach", "singular"})
     if (const auto at = summary.verdicts.find(verdict); at != summary.verdicts.end())
-      out.push_back({verdictWords(verdict), grouped(at->second),
+      out.push_back({verdictWords(verdict, summary.identity.what == "validate"), grouped(at->second),
                      fmt::format("{:.3g} %",
                                  100.0 * static_cast<double>(at->second) / static_cast<double>(summary.points_done))});
   if (summary.primary >= summary.outputs.size()) return out;
@@ -91,7 +91,7 @@ std::string sweepPage(const SweepSummary& summary) {
   if (!page.charts.empty()) page.script = report::charts_script;
   page.sections = {{"maps", "Over the grid", gridMaps(summary)},
                    {"drivers", "Drivers", driversTable(summary)},
-                   {"scatter", "Strongest relations", report::figuresHtml(page.charts, report::PlotGroup::relations)},
+                   {"scatter", "Strongest relations", report::figuresHtml(page.charts, {report::PlotGroup::relations})},
                    {"correlations", "Every number against every output", correlationTable(summary)},
                    {"indices", "First-order indices", indexTable(summary)},
                    {"worst", "Worst points", worstTable(summary)},

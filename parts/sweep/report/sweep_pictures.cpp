@@ -57,9 +57,9 @@ report::Plot plotOf(const SweepSummary& summary, const Scatter& scatter) {
   const std::string unit = report::prettyUnit(output.unit);
   const std::vector<std::size_t> rows = report::ascending(scatter.x);
   report::Plot plot;
-  plot.title = titleOf(output) + " over " + summary.parameters[scatter.parameter].key;
+  plot.x_label = keyWords(summary.parameters[scatter.parameter].key);
+  plot.title = titleOf(output) + " over " + plot.x_label;
   plot.group = report::PlotGroup::relations;
-  plot.x_label = summary.parameters[scatter.parameter].key;
   plot.y_label = titleOf(output) + (unit.empty() ? "" : " (" + unit + ")");
   plot.log_y = output.histogram.log;
   plot.rows = rows.size();
@@ -98,8 +98,8 @@ std::string gridMaps(const SweepSummary& summary) {
     const SweepOutput& output = summary.outputs[map.output];
     const std::string unit = report::prettyUnit(output.unit);
     report::HeatMap drawn{titleOf(output) + (unit.empty() ? "" : ", " + unit),
-                          {summary.parameters[0].key, map.x},
-                          {summary.parameters[1].key, map.y},
+                          {keyWords(summary.parameters[0].key), map.x},
+                          {keyWords(summary.parameters[1].key), map.y},
                           {map.values.begin(), map.values.end()}};
     const report::HeatScale scale(drawn.values, output.histogram.log);
     out += fmt::format(

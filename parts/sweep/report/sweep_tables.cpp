@@ -9,6 +9,7 @@
 #include "report/page/html_template.h"
 #include "report/page/sections.h"
 #include "report/text/quantity.h"
+#include "report/text/text.h"
 
 namespace ursula {
 
@@ -80,11 +81,12 @@ HtmlValue outputRow(const SweepSummary& summary, const SweepOutput& output) {
 
 HtmlValue worstRow(const SweepSummary& summary, const WorstPoint& point, const std::vector<std::size_t>& shown) {
   const Verdict verdict = shownVerdict(point.verdict);
+  const bool judges = summary.identity.what == "validate";
   const auto value = [&](std::size_t p) { return parameterText(summary.parameters[p], point.parameters[p]); };
   return {{"id", point.id},
           {"verdict", name(verdict)},
-          {"badge", point.verdict == name(verdict) ? report::verdictBadge(verdict) : ""},
-          {"words", verdictWords(point.verdict)},
+          {"badge", judges && point.verdict == name(verdict) ? report::verdictBadge(verdict) : ""},
+          {"words", verdictWords(point.verdict, judges)},
           {"why", whyOf(summary, point)},
           {"values", listOf(shown, value)},
           {"command", showCommand(summary, point.id)}};
@@ -93,6 +95,7 @@ HtmlValue worstRow(const SweepSummary& summary, const WorstPoint& point, const s
 HtmlValue parameterRow(const SweepParameter& parameter) {
   const Spread& s = parameter.spread;
   return {{"key", parameter.key},
+          {"words", keyWords(parameter.key)},
           {"levels", parameter.levels > most_levels ? fmt::format("> {}", grouped(most_levels))
                                                     : grouped(static_cast<std::int64_t>(parameter.levels))},
           {"min", parameterText(parameter, s.min)},
@@ -115,7 +118,7 @@ std::string worstTable(const SweepSummary& summary) {
   if (summary.worst.empty()) return "";
   const std::vector<std::size_t> shown = parametersToShow(summary);
   const std::size_t more = summary.parameters.size() - shown.size();
-  const auto key = [&summary](std::size_t p) { return breakable(summary.parameters[p].key); };
+  const auto key = [&summary](std::size_t p) { return report::escaped(keyWords(summary.parameters[p].key)); };
   const auto row = [&](const WorstPoint& point) { return worstRow(summary, point, shown); };
   return rendered(sweep_worst_html, {{"more", more > 0 ? std::to_string(more) : ""},
                                      {"keys", listOf(shown, key)},

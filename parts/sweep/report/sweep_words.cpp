@@ -38,13 +38,15 @@ std::string whereOf(const SweepSummary& summary, const SweepOutput& output) {
 /// "2,000 points, all passed", "3 points: 2 passed, 1 failed".
 std::string countsOf(const SweepSummary& summary) {
   const std::string points = grouped(summary.points_done) + (summary.points_done == 1 ? " point" : " points");
+  const bool judges = summary.identity.what == "validate";  // else "pass" says only that the motion can be made
   if (summary.verdicts.size() == 1)
-    return points + (summary.points_done == 1 ? ": " : ", all ") + verdictWords(summary.verdicts.begin()->first);
+    return points + (summary.points_done == 1 ? ": " : ", all ") +
+           verdictWords(summary.verdicts.begin()->first, judges);
   std::string out;
-  for (const auto& [verdict, words] : verdict_words) {
+  for (const auto& [verdict, of_judged] : verdict_words) {
     const auto at = summary.verdicts.find(verdict);
     if (at != summary.verdicts.end())
-      out += fmt::format("{}{} {}", out.empty() ? "" : ", ", grouped(at->second), words);
+      out += fmt::format("{}{} {}", out.empty() ? "" : ", ", grouped(at->second), verdictWords(verdict, judges));
   }
   return points + ": " + out;
 }
@@ -77,7 +79,8 @@ std::string grouped(std::int64_t count) {
   return out;
 }
 
-std::string verdictWords(const std::string& verdict) {
+std::string verdictWords(const std::string& verdict, bool judges) {
+  if (!judges && verdict == "pass") return "computed";
   for (const auto& [name, words] : verdict_words)
     if (verdict == name) return words;
   return verdict;
@@ -86,9 +89,9 @@ std::string verdictWords(const std::string& verdict) {
 std::string titleOf(const SweepOutput& output) {
   switch (output.kind) {
     case OutputKind::largest_effort:
-      return output.unit == "N" ? "Largest force of a motor" : "Largest effort";
+      return output.unit == "N" ? "Largest force of a motor" : "Largest torque of a motor";
     case OutputKind::effort:
-      return fmt::format("Effort of motor {}", output.motor + 1);
+      return fmt::format("{} of motor {}", output.unit == "N" ? "Force" : "Torque", output.motor + 1);
     case OutputKind::kappa:
       return "Condition number κ(B)";
     case OutputKind::sine:
@@ -144,9 +147,9 @@ std::string drivenBy(const SweepSummary& summary, const SweepOutput& output) {
                                              : "not related to any number more than by chance";
   const Relation& relation = output.relations[p];
   if (relation.acts)
-    return fmt::format("driven by {}, which alone makes {} of its variance", summary.parameters[p].key,
+    return fmt::format("driven by {}, which alone makes {} of its variance", keyWords(summary.parameters[p].key),
                        percent(relation.first_order));
-  return fmt::format("tied most to {}, by a rank correlation of {}", summary.parameters[p].key,
+  return fmt::format("tied most to {}, by a rank correlation of {}", keyWords(summary.parameters[p].key),
                      signedNumber(relation.spearman));
 }
 
@@ -174,7 +177,7 @@ std::string sweepSentence(const SweepSummary& summary) {
   else if (summary.points_done < identity.points)
     missing = fmt::format("Only {} of {} points are there: the sweep has not ended. ", grouped(summary.points_done),
                           grouped(identity.points));
-  return fmt::format("{}{}. {}", missing, countsOf(summary), primarySentence(summary));
+  return report::unbroken(fmt::format("{}{}. {}", missing, countsOf(summary), primarySentence(summary)));
 }
 
 std::vector<std::string> sweepRemarks(const SweepSummary& summary) {
@@ -195,7 +198,8 @@ std::string markdownOf(const SweepSummary& summary) {
   std::string out = fmt::format("| Sweep of {} | Points |\n| --- | ---: |\n", cell(summary.identity.name));
   out += fmt::format("| in all | {} |\n", grouped(summary.identity.points));
   for (const auto& [verdict, count] : summary.verdicts)
-    out += fmt::format("| {} | {} |\n", cell(verdictWords(verdict)), grouped(count));
+    out +=
+        fmt::format("| {} | {} |\n", cell(verdictWords(verdict, summary.identity.what == "validate")), grouped(count));
   if (summary.outputs.empty()) return out;
   out += "\n| Output | Min | Median | 95 % | Max | at point | Driven most by |\n";
   out += "| --- | ---: | ---: | ---: | ---: | ---: | --- |\n";
@@ -204,7 +208,7 @@ std::string markdownOf(const SweepSummary& summary) {
     out += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(titleOf(output)),
                        valueOf(output, output.spread.min), valueOf(output, output.spread.median),
                        valueOf(output, output.spread.high), valueOf(output, output.spread.max), output.worst_point,
-                       p < summary.parameters.size() ? cell(summary.parameters[p].key) : "–");
+                       p < summary.parameters.size() ? cell(keyWords(summary.parameters[p].key)) : "–");
   }
   return out;
 }
