@@ -5,7 +5,6 @@
 #include <exception>
 #include <memory>
 #include <mutex>
-#include <utility>
 
 #include "base/deadline.h"
 #include "model/instants.h"

@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-
 #include "parts/engines/side_by_side/side_by_side.h"
 #include "report/page/html_template.h"
 #include "report/page/page.h"
