@@ -12,6 +12,7 @@
 #include <dart/dynamics/UniversalJoint.hpp>
 #include <stdexcept>
 
+#include "bench/peers/closed_rates.h"
 #include "bench/peers/peer.h"
 #include "parts/engines/closing.h"
 

@@ -1,6 +1,5 @@
 #include "parts/engines/loop_engine.h"
 
-#include <algorithm>
 #include <array>
 #include <stdexcept>
 

@@ -10,38 +10,18 @@
 namespace ursula {
 namespace {
 
-constexpr char dart[] = "ursula_dart.so";
-
 /// Returns null if the module is not beside the program, or if its engine is not installed.
-template <const char* file>
-const EngineModule* module() {
+const EngineModule* dart() {
   static const EngineModule* const found = [] {
-    void* library = ::dlopen(file, RTLD_NOW | RTLD_LOCAL);
+    void* library = ::dlopen("ursula_dart.so", RTLD_NOW | RTLD_LOCAL);
     return library == nullptr ? nullptr : static_cast<const EngineModule*>(::dlsym(library, "ursula_engine_module"));
   }();
   return found;
 }
 
-template <const char* file>
-bool moduleAvailable() {
-  return module<file>() != nullptr;
-}
-
-template <const char* file>
-std::string moduleVersion() {
-  return moduleAvailable<file>() ? module<file>()->version : "none";
-}
-
-template <const char* file>
-std::unique_ptr<LoopEngine> makeByModule(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
-  if (!moduleAvailable<file>()) throw std::runtime_error(std::string(file) + " is not there");
-  return module<file>()->make(manipulator, std::move(load));
-}
-
-template <const char* file>
-std::unique_ptr<MechanismCalls> mechanismByModule(const Mechanism& mechanism) {
-  if (!moduleAvailable<file>()) throw std::runtime_error(std::string(file) + " is not there");
-  return std::make_unique<ClosedMechanism>(mechanism, module<file>()->build);
+const EngineModule& requiredDart() {
+  if (dart() == nullptr) throw std::runtime_error("ursula_dart.so is not there");
+  return *dart();
 }
 
 template <BuildTree* build>
@@ -77,10 +57,18 @@ const std::vector<LoopEngineKind>& loopEngines() {
        "bring "
        "it to the motors by the complement of mj_jac's rows",
        true, mujoco_recipe_code, mujoco_own_code},
-      {"DART", "libdart-dev", moduleAvailable<dart>, moduleVersion<dart>, makeByModule<dart>, Recipe::open,
+      {"DART", "libdart-dev", [] { return dart() != nullptr; },
+       [] { return std::string(dart() == nullptr ? "none" : dart()->version); },
+       [](const Manipulator& manipulator, std::shared_ptr<const Load> load) {
+         return requiredDart().make(manipulator, std::move(load));
+       },
+       Recipe::open,
        "take computeInverseDynamics at accelerations that close the loops (getLinearAcceleration of the points), and "
        "solve for the motors beside the multipliers of getLinearJacobian's rows",
-       "computeInverseDynamics, read at the motors,", false, mechanismByModule<dart>,
+       "computeInverseDynamics, read at the motors,", false,
+       [](const Mechanism& mechanism) -> std::unique_ptr<MechanismCalls> {
+         return std::make_unique<ClosedMechanism>(mechanism, requiredDart().build);
+       },
        "take computeInverseDynamics at accelerations that close the loops (getLinearAcceleration, "
        "getAngularAcceleration), and bring it to the motors by the complement of getWorldJacobian's rows",
        true, dart_recipe_code},

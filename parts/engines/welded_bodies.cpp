@@ -1,7 +1,6 @@
 // Bodies that fixed joints weld together.
 
 #include <algorithm>
-#include <numeric>
 
 #include "parts/engines/joint_rows.h"
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -18,20 +19,31 @@ namespace {
 /// Time for a process to end by itself after its input is closed, s.
 constexpr double grace = 1;
 
-/// A process that speaks the protocol.
+/// A process that speaks the protocol. It tells of a solver's questions; a simulator's are told elsewhere.
 class Process {
  public:
-  Process(const ExternalSolverOptions& options, const LineProcess::Environment& environment,
-          const char* role = "solver", const char* what = "effort")
-      : options_(options), process_(options.command, environment), role_(role), what_(what) {}
+  template <class Options>
+  Process(const ExternalSolverOptions& options, const LineProcess::Environment& environment, const Options& validation,
+          bool simulates)
+      : options_(options),
+        process_(options.command, environment),
+        deadline_(validation.time_limit),
+        thorough_(validation.thorough),
+        role_(simulates ? "simulator" : "solver"),
+        what_(simulates ? "acceleration" : "effort") {
+    if (!simulates) tell_ = validation.progress;
+  }
 
   Eigen::VectorXd answer(const std::string& question, int count) {
+    deadline_.require();  // an answer may take long
     if (const std::string unasked = process_.unasked(); !unasked.empty())
       refuse("wrote something that it was not asked for, expected one line for each question", question, unasked);
     const LineProcess::Answer answer = process_.ask(question, options_.timeout);
     if (answer.end != LineProcess::End::line) refuse(why(answer.end), question, answer.text);
     try {
-      return solverAnswer(answer.text, count, what_);
+      const Eigen::VectorXd out = solverAnswer(answer.text, count, what_);
+      if (tell_) tell_(shareOfQuestions(++asked_, thorough_), "asking the solver");
+      return out;
     } catch (const SolverProcessError& error) {
       refuse("gave an invalid answer: " + std::string(error.what()), question, answer.text);
     }
@@ -53,42 +65,16 @@ class Process {
 
   ExternalSolverOptions options_;
   LineProcess process_;
+  Deadline deadline_;
+  std::function<void(double, const char*)> tell_;
+  bool thorough_;
+  long asked_ = 0;
   const char *role_, *what_;
 };
 
 LineProcess::Environment environmentOf(const std::filesystem::path& scenario) {
   return {{"URSULA_SCENARIO", std::filesystem::absolute(scenario).string()}};
 }
-
-}  // namespace
-
-ValidationResult validateExternalSolver(const Scenario& scenario, const ExternalSolverOptions& options,
-                                        const ValidationOptions& validation) {
-  const auto process = std::make_shared<Process>(options, environmentOf(scenario.file));
-  const Deadline deadline(validation.time_limit);
-  OutsideSolver solver;
-  solver.name = options.command;
-  solver.called_by = CalledBy::solver;
-  const auto asked = std::make_shared<long>(0);
-  solver.torques = [process, deadline, asked, tell = validation.progress,
-                    thorough = validation.thorough](const std::vector<Motion<double>>& motions) {
-    std::vector<Vector6d> out;
-    out.reserve(motions.size());
-    for (const Motion<double>& motion : motions) {
-      deadline.require();  // an answer may take long
-      out.push_back(process->answer(solverQuestion(motion), motor_count));
-      if (tell) tell(shareOfQuestions(++*asked, thorough), "asking the solver");
-    }
-    return out;
-  };
-  ValidationOptions silent = validation;
-  silent.progress = nullptr;
-  ValidationResult result = validateOutside(scenario, solver, silent);
-  process->finish();
-  return result;
-}
-
-namespace {
 
 /// The motors' q, rates and accelerations, then the same of all other joints; without accelerations if there are
 /// efforts, which then end it.
@@ -137,53 +123,46 @@ LineProcess::Environment environmentOf(const MechanismScenario& scenario, bool w
 
 }  // namespace
 
+ValidationResult validateExternalSolver(const Scenario& scenario, const ExternalSolverOptions& options,
+                                        const ValidationOptions& validation) {
+  const auto process = std::make_shared<Process>(options, environmentOf(scenario.file), validation, false);
+  OutsideSolver solver;
+  solver.name = options.command;
+  solver.called_by = CalledBy::solver;
+  solver.torques = [process](const std::vector<Motion<double>>& motions) {
+    std::vector<Vector6d> out;
+    out.reserve(motions.size());
+    for (const Motion<double>& motion : motions) out.push_back(process->answer(solverQuestion(motion), motor_count));
+    return out;
+  };
+  ValidationOptions silent = validation;
+  silent.progress = nullptr;
+  ValidationResult result = validateOutside(scenario, solver, silent);
+  process->finish();
+  return result;
+}
+
 ValidationResult validateExternalSolver(const MechanismScenario& scenario, const ExternalSolverOptions& options,
                                         const MechanismOptions& validation) {
-  const auto process = std::make_shared<Process>(options, environmentOf(scenario, false));
-  const Deadline deadline(validation.time_limit);
-  long asked = 0;
+  Process process(options, environmentOf(scenario, false), validation, false);
   MechanismSubject subject;
   subject.about = {options.command, Formulation::external, CalledBy::solver};
   subject.answers = [&](const std::vector<MechanismQuestion>& questions) {
     std::vector<MotorEfforts> out;
-    for (const MechanismQuestion& question : questions) {
-      deadline.require();  // an answer may take long
-      out.push_back(process->answer(questionOf(question), static_cast<int>(scenario.mechanism->motorCount())));
-      if (validation.progress) validation.progress(shareOfQuestions(++asked, validation.thorough), "asking the solver");
-    }
+    for (const MechanismQuestion& question : questions)
+      out.push_back(process.answer(questionOf(question), static_cast<int>(scenario.mechanism->motorCount())));
     return out;
   };
   MechanismOptions silent = validation;
   silent.progress = nullptr;
   ValidationResult result = validateMechanism(scenario, subject, silent);
-  process->finish();
+  process.finish();
   return result;
 }
 
-namespace {
-
-/// A process that is asked for accelerations until the deadline; `questions` are its lines.
-class SimulatorProcess {
- public:
-  SimulatorProcess(const ExternalSolverOptions& options, const LineProcess::Environment& environment, double time_limit)
-      : process_(options, environment, "simulator", "acceleration"), deadline_(time_limit) {}
-
-  Eigen::VectorXd answer(const std::string& question, int count) {
-    deadline_.require();  // an answer may take long
-    return process_.answer(question, count);
-  }
-  void finish() { process_.finish(); }
-
- private:
-  Process process_;
-  Deadline deadline_;
-};
-
-}  // namespace
-
 ValidationResult validateExternalSimulator(const Scenario& scenario, const ExternalSolverOptions& options,
                                            const ValidationOptions& validation) {
-  SimulatorProcess process(options, environmentOf(scenario.file), validation.time_limit);
+  Process process(options, environmentOf(scenario.file), validation, true);
   OutsideSimulator simulator;
   simulator.name = options.command;
   simulator.called_by = CalledBy::simulator;
@@ -203,7 +182,7 @@ ValidationResult validateExternalSimulator(const Scenario& scenario, const Exter
 
 ValidationResult validateExternalSimulator(const MechanismScenario& scenario, const ExternalSolverOptions& options,
                                            const MechanismOptions& validation) {
-  SimulatorProcess process(options, environmentOf(scenario, true), validation.time_limit);
+  Process process(options, environmentOf(scenario, true), validation, true);
   MechanismSimulator simulator;
   simulator.about = {options.command, Formulation::external, CalledBy::simulator};
   simulator.accelerations = [&](const std::vector<MechanismQuestion>& states,

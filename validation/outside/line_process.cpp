@@ -179,17 +179,16 @@ double numberOf(std::string_view cell, int index, const char* what) {
 }  // namespace
 
 std::string solverQuestion(const Motion<double>& motion) {
-  const auto cells = [](const auto& vector) { return fmt::join(vector.begin(), vector.end(), ","); };
-  const Eigen::Vector4d q = quaternions({motion}).front();
-  return fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}", motion.t, cells(motion.p), cells(q),
-                     cells(motion.p_dot), cells(motion.omega), cells(motion.p_ddot), cells(motion.omega_dot));
+  Vector6d accelerations;
+  accelerations << motion.p_ddot, motion.omega_dot;
+  return simulatorQuestion(motion, accelerations);
 }
 
-std::string simulatorQuestion(const Motion<double>& state, const Vector6d& efforts) {
+std::string simulatorQuestion(const Motion<double>& state, const Vector6d& last) {
   const auto cells = [](const auto& vector) { return fmt::join(vector.begin(), vector.end(), ","); };
   const Eigen::Vector4d q = quaternions({state}).front();
   return fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}", state.t, cells(state.p), cells(q),
-                     cells(state.p_dot), cells(state.omega), cells(efforts));
+                     cells(state.p_dot), cells(state.omega), cells(last));
 }
 
 Vector6d solverAnswer(const std::string& line) { return solverAnswer(line, motor_count); }

@@ -4,7 +4,6 @@
 #include <exception>
 #include <memory>
 #include <mutex>
-#include <utility>
 
 #include "base/deadline.h"
 #include "base/dense.h"

@@ -2,8 +2,10 @@
 
 #include <dart/config.hpp>
 #include <dart/constraint/DynamicJointConstraint.hpp>
+#include <stdexcept>
 #include <utility>
 
+#include "parts/engines/closing.h"
 #include "parts/engines/dart/dart_machine_internal.h"
 #include "parts/engines/dart/dart_tree_internal.h"
 
@@ -12,6 +14,46 @@ namespace {
 
 using dart::constraint::DynamicJointConstraint;
 using dart_engine::DartMachine;
+
+class DartStepped : public SteppedLoop {
+ public:
+  DartStepped(const Manipulator& manipulator, std::shared_ptr<const Load> load, const Rigidity& rigidity)
+      : manipulator_(manipulator), load_(std::move(load)), rigidity_(rigidity) {
+    if (hasRotors(manipulator)) throw std::runtime_error("DART moves no rotors");
+  }
+
+  void start(const Motion<double>& motion) override {
+    time_ = motion.t;
+    machine_ = std::make_unique<DartMachine>(manipulator_);
+    machine_->move(motion, true);
+    machine_->close(rigidity_);
+  }
+
+  void step(const Vector6d& efforts) override {
+    machine_->addFrictionAndLoad(load_.get(), time_);
+    for (int m = 0; m < motor_count; ++m) {
+      const Motor& motor = manipulator_.motors()[static_cast<std::size_t>(m)];
+      machine_->addEffort(motor.leg, motor.joint, efforts(m));
+    }
+    machine_->step();
+    time_ += rigidity_.step;
+  }
+
+  void read(State& out) override {
+    out.q = forMotors(manipulator_, [&](const Motor& motor) { return machine_->coordinate(motor.leg, motor.joint); });
+    out.p = machine_->platform->getWorldTransform().translation();
+    out.energy = machine_->energy();
+    out.power = machine_->powerOfFrictionAndLoad(load_.get(), time_);
+    machine_->readMaps(out.tree);
+  }
+
+ private:
+  Manipulator manipulator_;
+  std::shared_ptr<const Load> load_;
+  Rigidity rigidity_;
+  double time_ = 0;
+  std::unique_ptr<DartMachine> machine_;
+};
 
 class DartCalls : public LoopEngine {
  public:
@@ -25,10 +67,13 @@ class DartCalls : public LoopEngine {
     for (int i = 0; i < manipulator().legCount(); ++i) {
       const Vector3d acts = machine_.friction(i);
       const auto index = static_cast<std::size_t>(i);
+      const auto& coordinates = rowOf(manipulator().leg(i).kind).coordinates;
       for (int j = 0; j < 3; ++j) {
         const auto [joint, which] = machine_.legs[index].place(j);
         tree_.legs[index].force(j) =
-            joint->getForce(which) - acts(j) + rotorForce(manipulator().leg(i), j, joint->getAcceleration(which));
+            joint->getForce(which) - acts(j) +
+            manipulator().leg(i).rotor_inertia.on(coordinates[static_cast<std::size_t>(j)]) *
+                joint->getAcceleration(which);
       }
     }
     const Vector6d load = loadInBase(load_.get(), motion.t, motion.Q);
@@ -50,13 +95,7 @@ class DartCalls : public LoopEngine {
   }
 
   std::unique_ptr<SteppedLoop> stepped(const Rigidity& rigidity) const override {
-    return steppedMachine("DART", manipulator(), load_, rigidity.step,
-                          [from = manipulator(), rigidity](const Motion<double>& start) {
-                            auto out = std::make_unique<DartMachine>(from);
-                            out->move(start, true);
-                            out->close(rigidity);
-                            return out;
-                          });
+    return std::make_unique<DartStepped>(manipulator(), load_, rigidity);
   }
 
  private:

@@ -11,7 +11,6 @@
 #include <dart/dynamics/RevoluteJoint.hpp>
 #include <dart/dynamics/UniversalJoint.hpp>
 #include <stdexcept>
-#include <vector>
 
 #include "parts/engines/dart/dart_machine_internal.h"
 
@@ -72,7 +71,7 @@ Eigen::Isometry3d placeOf(const Matrix3d& R, const Vector3d& at) {
 
 }  // namespace
 
-DartMachine::DartMachine(const Manipulator& from) : EngineMachine(from), skeleton(dd::Skeleton::create("machine")) {
+DartMachine::DartMachine(const Manipulator& from) : manipulator(from), skeleton(dd::Skeleton::create("machine")) {
   skeleton->setGravity(from.gravity());
   for (int i = 0; i < from.legCount(); ++i) addLeg(from.leg(i), std::to_string(i));
   dd::BodyNode::AspectProperties body("platform");
@@ -145,16 +144,12 @@ double DartMachine::coordinate(int leg, int j) const {
   return joint->getPosition(which);
 }
 
-double DartMachine::rate(int leg, int j) const {
-  const auto [joint, which] = legs[static_cast<std::size_t>(leg)].place(j);
-  return joint->getVelocity(which);
-}
-
-ChainBody DartMachine::platformBody() const {
-  ChainBody out;
-  out.frame = platform->getWorldTransform();
-  out.omega = platform->getAngularVelocity();
-  out.velocity = platform->getLinearVelocity();
+Vector3d DartMachine::rates(int leg) const {
+  Vector3d out;
+  for (int j = 0; j < 3; ++j) {
+    const auto [joint, which] = legs[static_cast<std::size_t>(leg)].place(j);
+    out(j) = joint->getVelocity(which);
+  }
   return out;
 }
 
@@ -200,13 +195,25 @@ void DartMachine::addEffort(int leg, int j, double effort) {
   joint->setForce(which, joint->getForce(which) + unit_ * effort);
 }
 
-void DartMachine::addWrench(const Vector6d& moment_and_force) {
-  platform->addExtForce(unit_ * moment_and_force.tail<3>(), Vector3d::Zero(), false, true);
-  platform->addExtTorque(unit_ * moment_and_force.head<3>(), false);
+void DartMachine::addFrictionAndLoad(const Load* load, double t) {
+  for (int i = 0; i < manipulator.legCount(); ++i) {
+    const Vector3d acts = friction(i);
+    for (int j = 0; j < 3; ++j) addEffort(i, j, acts(j));
+  }
+  const Vector6d w = loadInBase(load, t, platform->getWorldTransform().linear());
+  platform->addExtForce(unit_ * w.tail<3>(), Vector3d::Zero(), false, true);
+  platform->addExtTorque(unit_ * w.head<3>(), false);
+}
+
+double DartMachine::powerOfFrictionAndLoad(const Load* load, double t) const {
+  const Vector6d w = loadInBase(load, t, platform->getWorldTransform().linear());
+  double out = w.head<3>().dot(platform->getAngularVelocity()) + w.tail<3>().dot(platform->getLinearVelocity());
+  for (int i = 0; i < manipulator.legCount(); ++i) out += friction(i).dot(rates(i));
+  return out;
 }
 
 /// DART's constants are global, so each step sets them.
-void DartMachine::step(double) {
+void DartMachine::step() {
   using dart::constraint::DynamicJointConstraint;
   DynamicJointConstraint::setErrorReductionParameter(rigidity_.settings.at(0).second);
   DynamicJointConstraint::setConstraintForceMixing(rigidity_.settings.at(1).second);

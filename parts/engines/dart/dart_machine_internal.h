@@ -7,7 +7,8 @@
 #include <dart/simulation/World.hpp>
 #include <vector>
 
-#include "parts/engines/engine_machine.h"
+#include "parts/engines/leg_motion.h"
+#include "parts/engines/loop_engine.h"
 
 namespace ursula::dart_engine {
 
@@ -23,9 +24,9 @@ struct DartLeg {
   }
 };
 
-/// One skeleton of open legs and a free platform. DART expresses the platform's twist and twist rate in the body's
-/// axes, [ω; v].
-class DartMachine : public EngineMachine {
+/// One skeleton of open legs and a free platform, without rotors, friction and loads; in B, SI. DART expresses the
+/// platform's twist and twist rate in the body's axes, [ω; v]. Efforts and wrenches add up until the next step.
+class DartMachine {
  public:
   explicit DartMachine(const Manipulator& from);
 
@@ -38,15 +39,17 @@ class DartMachine : public EngineMachine {
   /// std::runtime_error if the legs have no mass.
   void close(const Rigidity& rigidity);
 
-  double coordinate(int leg, int j) const override;
-  double rate(int leg, int j) const override;
-  ChainBody platformBody() const override;
-  double energy() override;
-  void readMaps(PlacedTree& out) override;
-  void addEffort(int leg, int j, double effort) override;
-  void addWrench(const Vector6d& moment_and_force) override;
-  void step(double h) override;
+  double coordinate(int leg, int j) const;
+  Vector3d friction(int leg) const { return frictionOn(manipulator.leg(leg), rates(leg)); }
+  double energy();  ///< kinetic and potential, J
+  void readMaps(PlacedTree& out);
+  void addEffort(int leg, int j, double effort);
+  void addFrictionAndLoad(const Load* load, double t);
+  double powerOfFrictionAndLoad(const Load* load, double t) const;  ///< W
+  /// Throws std::runtime_error if the engine gives up.
+  void step();
 
+  Manipulator manipulator;
   dart::dynamics::SkeletonPtr skeleton;
   std::vector<DartLeg> legs;
   dart::dynamics::FreeJoint* free = nullptr;
@@ -55,6 +58,7 @@ class DartMachine : public EngineMachine {
  private:
   void addLeg(const Leg& leg, const std::string& index);
   void chooseUnit();
+  Vector3d rates(int leg) const;
 
   dart::simulation::WorldPtr world_;  ///< null while the loops are open
   Rigidity rigidity_;

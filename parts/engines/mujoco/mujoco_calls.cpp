@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <utility>
 
 #include "parts/engines/closing.h"
@@ -76,7 +75,7 @@ Connected connected(const Manipulator& manipulator, const Vector3d& origin, cons
 class MujocoStepped : public SteppedLoop {
  public:
   MujocoStepped(const Manipulator& manipulator, std::shared_ptr<const Load> load, const Rigidity& rigidity)
-      : loop_(manipulator, std::move(load)), at_(*loop_.impl_), rigidity_(rigidity) {}
+      : loop_(manipulator, std::move(load)), at_(loop_.impl()), rigidity_(rigidity) {}
 
   void start(const Motion<double>& motion) override {
     at_.place(motion);
@@ -135,7 +134,7 @@ class MujocoStepped : public SteppedLoop {
 class MujocoCalls : public LoopEngine {
  public:
   MujocoCalls(const Manipulator& manipulator, std::shared_ptr<const Load> load)
-      : LoopEngine(manipulator), load_(load), loop_(manipulator, std::move(load)), at_(*loop_.impl_) {}
+      : LoopEngine(manipulator), load_(load), loop_(manipulator, std::move(load)), at_(loop_.impl()) {}
 
   const PlacedTree& tree(const Motion<double>& motion, Bias bias) override {
     at_.place(motion);

@@ -64,14 +64,10 @@ struct MujocoLoop::Impl {
   mujoco::VectorOfDofs unbalanced(const Motion<double>& motion) const;
   /// Friction and load on the coordinates, for a model with rates and positions set.
   mujoco::VectorOfDofs given(const mjModel& in_model, mjData& in_data, const Motion<double>& motion) const;
-  void placeTree(const TreeCoordinates& at);
   /// Reads the Jacobians of the placed state; `forces` are MuJoCo's result for it.
   void readTree(const Motion<double>& motion, const mujoco::VectorOfDofs& forces, OpenTree& out);
   /// Reads the rates' part of readTree() alone: J and P.
   void readMaps(const mjModel& in_model, mjData& in_data, OpenTree& out) const;
-  /// Converts rates of MuJoCo's free joint to [ω̇; p̈]; they are linear at the mass centre in the world, angular in the
-  /// body.
-  Vector6d twistRate(const Motion<double>& motion, const Vector6d& rates_of_speeds) const;
 
   Manipulator manipulator;
   std::shared_ptr<const Load> load;
@@ -81,7 +77,6 @@ struct MujocoLoop::Impl {
   mujoco::Data data;
   mujoco::GapJacobian G;
   std::array<double, leg_count> offset_of_phi{};  ///< MuJoCo's first coordinate of a leg minus φ
-  mujoco::Connected connected;                    ///< created on first use
 };
 
 }  // namespace ursula

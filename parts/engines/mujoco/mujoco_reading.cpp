@@ -2,8 +2,6 @@
 
 #include "parts/engines/mujoco/mujoco_reading.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>

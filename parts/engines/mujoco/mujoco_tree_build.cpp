@@ -5,7 +5,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 
 #include "parts/engines/mujoco/mujoco_tree_internal.h"

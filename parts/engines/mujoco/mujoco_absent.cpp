@@ -2,8 +2,10 @@
 
 #include <stdexcept>
 
+#include "parts/engines/closed_mechanism.h"
 #include "parts/engines/loop_engine.h"
 #include "parts/engines/mujoco/mujoco_loop.h"
+#include "parts/engines/mujoco/mujoco_reading.h"
 
 namespace ursula {
 namespace {
@@ -19,12 +21,6 @@ MujocoLoop::MujocoLoop(const Manipulator&, std::shared_ptr<const Load>) { throwA
 MujocoLoop::~MujocoLoop() = default;
 
 Vector6d MujocoLoop::inverseDynamics(const Motion<double>&) { throwAbsent(); }
-void MujocoLoop::coordinates(const Motion<double>&, const JointMotion&, TreeCoordinates&) const { throwAbsent(); }
-void MujocoLoop::openTree(const TreeCoordinates&, OpenTree&) { throwAbsent(); }
-void MujocoLoop::openTree(const TreeCoordinates&, OpenTree&, OpenTreeMasses&) { throwAbsent(); }
-Vector6d MujocoLoop::twistRate(const TreeCoordinates&, const Vector6d&) const { throwAbsent(); }
-Vector6d MujocoLoop::softTwistRate(const TreeCoordinates&, const Vector6d&) { throwAbsent(); }
-double MujocoLoop::softImpedance() { throwAbsent(); }
 
 bool mujocoAvailable() { return false; }
 
@@ -32,6 +28,12 @@ std::string mujocoVersion() { return "none"; }
 
 std::unique_ptr<Engine> makeMujocoLoop(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
   return std::make_unique<MujocoLoop>(manipulator, std::move(load));
+}
+
+BuiltTree buildMujoco(const Mechanism&, const WeldedMechanism&) { throwAbsent(); }
+
+ReadingDifference readByMujoco(const std::filesystem::path&, const MechanismParameters&, const ReadingChoices&) {
+  throwAbsent();
 }
 
 std::unique_ptr<LoopEngine> makeMujocoCalls(const Manipulator&, std::shared_ptr<const Load>) { throwAbsent(); }
