@@ -241,12 +241,14 @@ std::string reasonsText(const ValidationResult& result) {
 
 /// The verdict with its size and its cause.
 std::string headText(const ValidationResult& result, const std::string& verdict) {
-  const std::string deviation = deviationSentence(result), worst = worstMotor(result);
+  const std::string worst = worstMotor(result), size = sizeText(result), remedy = remedyText(result);
   std::string out = fmt::format("{}: {}\nverdict: {} — {}\n", withoutControls(result.scenario), verdict, verdict,
                                 reason(result.verdict, result.checks));
-  if (!deviation.empty()) out += deviation + "\n";
+  for (const std::string& line : deviationLines(result)) out += line + "\n";
   if (!worst.empty()) out += fmt::format("worst: {}\n", withoutControls(worst));
+  if (!size.empty()) out += "size: " + size + "\n";
   if (!result.cause_words.cause.empty()) out += causeText(result.cause_words) + "\n";
+  if (!remedy.empty()) out += "remedy: " + withoutControls(remedy) + "\n";
   return out;
 }
 
@@ -276,6 +278,7 @@ std::string quietText(const ValidationResult& result, bool coloured) {
   if (!words.cause.empty() && out.back() == '.') out.pop_back();
   if (const std::string worst = worstMotor(result); !worst.empty()) out += " — " + withoutControls(worst);
   if (!words.cause.empty()) out += "; " + causeText(words);
+  if (const std::string remedy = remedyText(result); !remedy.empty()) out += ". " + withoutControls(remedy);
   return inOneLine(out);
 }
 
