@@ -111,6 +111,35 @@ const std::vector<double>* columnOf(const CsvTable& table, const Mechanism& mech
   return table.find(std::string(of) == "q" ? joint + unit : fmt::format("{}_{}{}", of, joint, unit));
 }
 
+/// Throws if given derivatives contradict what they belong to. Between two instants the mean slope is a derivative's
+/// value there; it lies within the range of the nearest four derivatives, as far as that range goes on either side.
+/// `quantum` is the rounding of the values.
+void requireDerivatives(const CsvTable& table, const Mechanism& mechanism, const char* value, const char* rate,
+                        double quantum) {
+  const std::vector<double>& t = table.at("t_s");
+  for (std::size_t k = 0; k < mechanism.motorCount(); ++k) {
+    const std::vector<double>*q = columnOf(table, mechanism, k, value), *r = columnOf(table, mechanism, k, rate);
+    if (q == nullptr || r == nullptr) continue;
+    double most = 0;
+    for (const double each : *q) most = std::max(most, std::abs(each));
+    for (std::size_t i = 0; i + 1 < t.size() && t.size() >= 4; ++i) {
+      const std::size_t first = std::min(i == 0 ? 0 : i - 1, t.size() - 4);
+      const auto [low, high] = std::minmax_element(r->begin() + static_cast<std::ptrdiff_t>(first),
+                                                   r->begin() + static_cast<std::ptrdiff_t>(first + 4));
+      const double h = t[i + 1] - t[i], slope = ((*q)[i + 1] - (*q)[i]) / h;
+      const double slack = *high - *low + (2 * quantum + 1e-15 * most) / h + 1e-12 * std::abs(slope);
+      if (!(h > 0) || (slope >= *low - slack && slope <= *high + slack)) continue;
+      const auto nameOf = [&](const std::vector<double>* column) {
+        return table.names[static_cast<std::size_t>(column - table.columns.data())];
+      };
+      throw CsvError(
+          fmt::format("{}: error: {} is {:.6g} at t = {:.6g} s, but {} changes by {:.6g} a second from there "
+                      "to the next row, expected its derivative; without the column it is taken from {}",
+                      table.place(i), nameOf(r), (*r)[i], t[i], nameOf(q), slope, nameOf(q)));
+    }
+  }
+}
+
 }  // namespace
 
 MotorSamples readMotorSamples(const std::filesystem::path& file, const Mechanism& mechanism) {
@@ -126,6 +155,8 @@ MotorSamples readMotorSamples(const std::filesystem::path& file, const Mechanism
     if (const auto* column = columnOf(read, mechanism, k, "q"))
       out.quantum =
           std::max(out.quantum, halfDigit(read, read.names[static_cast<std::size_t>(column - read.columns.data())]));
+  requireDerivatives(read, mechanism, "q", "qdot", out.quantum);
+  requireDerivatives(read, mechanism, "qdot", "qddot", 0);
   try {
     out.trajectory = makeMotorSamples(out.t, motorColumns(read, mechanism, "q", true), rates, accelerations);
     return out;

@@ -60,10 +60,25 @@ inline void members(Archive& archive, OddOne& odd_one) {
 }
 
 inline void members(Archive& archive, NamedCause& cause) {
-  auto& [kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained,
-         joint] = cause;
-  archive(kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained,
-          joint);
+  auto& [kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained, joint,
+         signs] = cause;
+  archive(kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained, joint,
+          signs);
+}
+
+inline void members(Archive& archive, ScenarioChange& change) {
+  auto& [key, value] = change;
+  archive(key, value);
+}
+
+inline void members(Archive& archive, FailureSize& size) {
+  auto& [grade, limits, rounding, least_term, least_share, remedy] = size;
+  archive(grade, limits, rounding, least_term, least_share, remedy);
+}
+
+inline void members(Archive& archive, NeededRows& needed) {
+  auto& [rows, given] = needed;
+  archive(rows, given);
 }
 
 inline void members(Archive& archive, BlindSpot& spot) {
@@ -112,11 +127,12 @@ inline void members(Archive& archive, std::shared_ptr<const Scenario>& asked) {
 
 inline void members(Archive& archive, ValidationResult& result) {
   auto& [scenario, kind, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause,
-         causes, together, terms, blind, words, windows, deviation, effort, timeseries, curves, events, asked,
-         mechanism] = result;
+         causes, together, size, needed, terms, blind, words, windows, deviation, effort, timeseries, curves, events,
+         asked, mechanism] = result;
   static_cast<void>(mechanism);  // a picture, which a result that was read does without
   archive(scenario, kind, subject, limits, verdict, checks, provenance, run, findings, odd_one, replay_error, cause,
-          causes, together, terms, blind, words, windows, deviation, effort, timeseries, curves, events, asked);
+          causes, together, size, needed, terms, blind, words, windows, deviation, effort, timeseries, curves, events,
+          asked);
 }
 
 }  // namespace ursula::python

@@ -163,6 +163,7 @@ void addCause(py::module_& module) {
   add("leg", &NamedCause::leg);
   add("motor", &NamedCause::motor);
   add("legs", &NamedCause::legs);
+  add("signs", &NamedCause::signs);
   made.def_readonly("expected", &NamedCause::expected)
       .def_readonly("found", &NamedCause::found)
       .def_readonly("uncertainty", &NamedCause::uncertainty)
@@ -214,6 +215,15 @@ void addResult(py::module_& module) {
       .def_property_readonly(
           "deviation", [](const Result& result) { return result.deviation; },
           "The largest error of the efforts: a Deviation, None if no effort was compared.")
+      .def_property_readonly(
+          "size",
+          [](const Result& result) {
+            return result.size ? std::optional<std::string>(ursula::name(result.size->grade)) : std::nullopt;
+          },
+          "\"rounding\", \"modelling\" or \"wrong\"; None if no effort is wrong.")
+      .def_property_readonly(
+          "remedy", [](const Result& result) { return ursula::remedyText(result); },
+          "A change of the scenario with which the efforts are right, in words; else empty.")
       .def_readonly("cause", &Result::cause, "The likely cause of wrong efforts: a Cause, None if no cause is certain.")
       .def_readonly("causes", &Result::causes, "Other causes that explain the deviation equally well: a list of Cause.")
       .def_readonly("causes_together", &Result::causes_together,

@@ -156,8 +156,10 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   sayQuestions(evidence, result);
   result.deviation = effortDeviation(evidence, result.checks, result.odd_one);
   conclude(scenario, evidence.has, 0, result);
-  if (result.verdict == Verdict::fail && subject.formulation == Formulation::external && !onlyOddEngineFails(result))
+  if (result.verdict == Verdict::fail && subject.formulation == Formulation::external && !onlyOddEngineFails(result)) {
     explainSolver(scenario, evidence, subject, result);
+    result.size = failureSize(*evidence.scenario, evidence.samples, scenario, evidence.natural, result);
+  }
   sayEfforts(result);
   return result;
 }

@@ -139,8 +139,11 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   result.deviation = effortDeviation(evidence, result.checks, result.odd_one);
   conclude(scenario, evidence.has, replay.between * natural.units.effort(), result);
   addFileFindings(file, result);
-  if (result.verdict == Verdict::fail && !onlyOddEngineFails(result) && partLikelyCause() != nullptr)
-    addCause(scenario, natural, file, evidence, options.solver, result);
+  if (replay.enough_rows > 0) result.needed = NeededRows{replay.enough_rows, file.rows()};
+  if (result.verdict == Verdict::fail && !onlyOddEngineFails(result)) {
+    if (partLikelyCause() != nullptr) addCause(scenario, natural, file, evidence, options.solver, result);
+    result.size = failureSize(here, evidence.samples, scenario, natural, result);
+  }
   sayEfforts(result);
   return result;
 }

@@ -89,7 +89,11 @@ void addOrder(const EffortResidual& data, std::vector<Tried>& out) {
     for (const std::size_t motor : order) named.legs.push_back(static_cast<int>(motor) + 1);
   else
     nameThem(data, flipped, named);
-  addFixed(out, named, VectorXd(efforts - data.noc), is_order && !flipped.empty() ? "some with the wrong sign" : "");
+  if (is_order && !flipped.empty()) {
+    named.signs.assign(order.size(), 1);
+    for (const int motor : flipped) named.signs[static_cast<std::size_t>(motor)] = -1;
+  }
+  addFixed(out, named, VectorXd(efforts - data.noc));
 }
 
 bool nameUnits(const EffortResidual& data, double factor, NamedCause& named) {

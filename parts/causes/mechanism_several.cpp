@@ -120,15 +120,19 @@ std::vector<std::size_t> rowsWithin(const EffortResidual& data, double from, dou
 
 /// Names the cause of efforts that differ from the right ones by `effect`.
 NameAlone nameAlone(const EffortResidual& data) {
-  return [&data](const VectorXd& effect) -> std::optional<std::pair<NamedCause, std::string>> {
+  return [&data](const VectorXd& effect) -> std::optional<NamedAlone> {
     EffortResidual alone = data;
     alone.found = data.noc + effect;
     alone.limit *=
         std::max(1.0, data.found.cwiseAbs().maxCoeff() / std::max(alone.found.cwiseAbs().maxCoeff(), 1e-300));
     ValidationResult said;
-    if (!nameAll(fittedCauses(alone), said) || !said.cause) return std::nullopt;
-    const std::string& words = said.cause_words.cause;
-    return std::pair(*said.cause, words.substr(0, words.find(", which explains")));
+    if (!nameAll(fittedCauses(alone), said)) return std::nullopt;
+    const std::string& all = said.cause_words.cause;
+    const std::size_t others = all.find("; as well explained by: ");
+    const std::string words =
+        all.substr(0, all.find(", which explains")) + (others == std::string::npos ? "" : all.substr(others));
+    if (said.cause) return NamedAlone{*said.cause, words};
+    return NamedAlone{said.causes.front(), words, {said.causes.begin() + 1, said.causes.end()}, false};
   };
 }
 
@@ -144,15 +148,20 @@ bool nameSeveral(const EffortResidual& data, double left, ValidationResult& resu
   };
   const Together together(few);
   const Pursuit pursuit(together.suspects(), few.noc, few.found, few.limit, few.motors, at(together));
-  const std::optional<Mistakes> mistakes = pursuit.only();
-  if (!mistakes) return false;
-  const auto& which = mistakes->which;
+  const std::vector<Mistakes> sets = pursuit.best();
+  if (sets.empty()) return false;
+  const auto& which = sets.front().which;
   const EffortResidual& there = std::find(which.begin(), which.end(), std::size_t{0}) != which.end() ? inner : data;
   const Together of_all(there);
-  const std::optional<SeveralNamed> each = nameEach(pursuit, *mistakes, there.residual(), at(of_all), nameAlone(there));
+  const std::optional<SeveralNamed> each = nameEach(pursuit, sets, there.residual(), at(of_all), nameAlone(there));
   if (!each) return false;
-  result.causes_together = each->together;
-  result.cause = each->together.front();
+  if (each->is_sure) {
+    result.causes_together = each->together;
+    result.cause = each->together.front();
+  } else {
+    result.causes = each->together;
+    result.causes.insert(result.causes.end(), each->ties.begin(), each->ties.end());
+  }
   result.cause_words.cause = each->words;
   result.cause_words.claim = CauseClaim::likely;
   return true;

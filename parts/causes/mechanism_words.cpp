@@ -62,8 +62,10 @@ std::string numberWords(const std::string& key) {
 std::string numbersWords(const NamedCause& cause) {
   if (!cause.found || !cause.expected) return "";
   const std::string unit = cause.unit.empty() ? "" : " " + cause.unit;
-  std::string out = fmt::format("{:.7g}", *cause.found);
-  if (cause.uncertainty && *cause.uncertainty > 1e-7 * std::abs(*cause.found))
+  const double size = std::abs(*cause.found), spread = cause.uncertainty.value_or(0);
+  const bool is_zero = size <= spread && spread <= 1e-9 * std::abs(*cause.expected);
+  std::string out = fmt::format("{:.7g}", is_zero ? 0 : *cause.found);
+  if (!is_zero && cause.uncertainty && *cause.uncertainty > 1e-7 * std::abs(*cause.found))
     out += fmt::format(" +- {:.2g}", *cause.uncertainty);
   return fmt::format(" is {}{} instead of {:.7g}{}", out, unit, *cause.expected, unit);
 }
@@ -116,6 +118,8 @@ std::string orderWords(const NamedCause& cause) {
   for (std::size_t i = 0; i < cause.legs.size(); ++i)
     if (cause.legs[i] != static_cast<int>(i) + 1)
       out += fmt::format("{}column {} holds motor {}", out.empty() ? "" : ", ", i + 1, cause.legs[i]);
+  for (std::size_t i = 0; i < cause.signs.size(); ++i)
+    if (cause.signs[i] < 0) out += fmt::format("{}column {} has the wrong sign", out.empty() ? "" : ", ", i + 1);
   return "the motors are in another order: " + out;
 }
 

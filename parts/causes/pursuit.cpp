@@ -171,27 +171,56 @@ VectorXd Pursuit::left(const Mistakes& of) const {
   return made ? VectorXd(found_ - *made) : VectorXd::Constant(found_.size(), HUGE_VAL);
 }
 
+std::vector<Index> Pursuit::numbersOf(const Mistakes& mistakes) const {
+  std::vector<Index> out;
+  for (std::size_t i = 0; i < mistakes.which.size(); ++i)
+    if (hasNumber(mistakes.which[i])) out.push_back(static_cast<Index>(i));
+  return out;
+}
+
+/// What the efforts change by each of these numbers, by central differences.
+MatrixXd Pursuit::slopes(const Mistakes& at, const std::vector<Index>& numbers) const {
+  MatrixXd out(right_.size(), static_cast<Index>(numbers.size()));
+  for (Index i = 0; i < out.cols(); ++i) {
+    Mistakes above = at, below = at;
+    const Index number = numbers[static_cast<std::size_t>(i)];
+    const double h = step(at.which[static_cast<std::size_t>(number)]);
+    above.x(number) += h, below.x(number) -= h;
+    out.col(i) = (left(below) - left(above)) / (2 * h);
+  }
+  return out;
+}
+
+NumbersDoubt Pursuit::doubt(const Mistakes& mistakes) const {
+  const Index count = mistakes.x.size();
+  NumbersDoubt out{VectorXd::Ones(count), VectorXd::Zero(count)};
+  const std::vector<Index> numbers = numbersOf(mistakes);
+  if (numbers.empty()) return out;
+  MatrixXd S = slopes(mistakes, numbers);
+  if (!S.allFinite() || !(S.colwise().norm().minCoeff() > 0)) return out;
+  S = (S * S.colwise().norm().cwiseInverse().asDiagonal()).eval();
+  const VectorXd variances = MatrixXd(S.transpose() * S).inverse().diagonal();
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    out.inflation(numbers[i]) = std::sqrt(std::max(1.0, variances(static_cast<Index>(i))));
+  Mistakes other = mistakes;  // the same in the other order
+  std::reverse(other.which.begin(), other.which.end());
+  other.x.reverseInPlace();
+  improve(other, 10);
+  if (other.beyond <= most_beyond) out.shift = (other.x.reverse() - mistakes.x).cwiseAbs();
+  return out;
+}
+
 /// Gauss–Newton by differences; sets what is left.
 void Pursuit::improve(Mistakes& mistakes, int steps) const {
-  std::vector<Index> numbers;
-  for (std::size_t i = 0; i < mistakes.which.size(); ++i)
-    if (hasNumber(mistakes.which[i])) numbers.push_back(static_cast<Index>(i));
+  const std::vector<Index> numbers = numbersOf(mistakes);
   VectorXd remaining = left(mistakes);
   bool better = !numbers.empty();
   for (int k = 0; k < steps && better && remaining.allFinite(); ++k) {
-    MatrixXd slopes(remaining.size(), static_cast<Index>(numbers.size()));
-    VectorXd sizes(slopes.cols());
-    for (Index i = 0; i < slopes.cols(); ++i) {
-      Mistakes above = mistakes, below = mistakes;
-      const Index number = numbers[static_cast<std::size_t>(i)];
-      const double h = step(mistakes.which[static_cast<std::size_t>(number)]);
-      above.x(number) += h, below.x(number) -= h;
-      slopes.col(i) = (left(below) - left(above)) / (2 * h);
-      sizes(i) = std::max(slopes.col(i).norm(), 1e-300);
-      slopes.col(i) /= sizes(i);
-    }
+    const MatrixXd slopes = this->slopes(mistakes, numbers);
     if (!slopes.allFinite()) break;
-    VectorXd dx = slopes.colPivHouseholderQr().solve(remaining).cwiseQuotient(sizes);
+    const VectorXd sizes = slopes.colwise().norm().cwiseMax(1e-300).transpose();
+    const MatrixXd scaled = slopes * sizes.cwiseInverse().asDiagonal();
+    VectorXd dx = scaled.colPivHouseholderQr().solve(remaining).cwiseQuotient(sizes);
     better = false;
     for (int halvings = 0; halvings < 4 && !better; ++halvings, dx /= 2) {
       Mistakes there = mistakes;
@@ -306,51 +335,22 @@ std::vector<Mistakes> Pursuit::all() const {
   return out;
 }
 
-std::optional<Mistakes> Pursuit::only() const {
-  const std::vector<Mistakes> sets = all();
-  if (sets.empty()) return std::nullopt;
-  Mistakes out = sets.front();
-  for (const Mistakes& other : sets) {
-    if (other.numbers > out.numbers) break;
-    if (!std::is_permutation(out.which.begin(), out.which.end(), other.which.begin(), other.which.end(),
-                             [this](std::size_t i, std::size_t j) { return areAlike(i, j); }))
-      return std::nullopt;
-    for (const std::size_t place : out.which)
-      if (std::find(other.which.begin(), other.which.end(), place) == other.which.end()) out.any_body.push_back(place);
+std::vector<Mistakes> Pursuit::best() const {
+  std::vector<Mistakes> out;
+  for (const Mistakes& other : all()) {
+    if (!out.empty() && other.numbers > out.front().numbers) break;
+    const auto like = std::find_if(out.begin(), out.end(), [&](const Mistakes& one) {
+      return std::is_permutation(one.which.begin(), one.which.end(), other.which.begin(), other.which.end(),
+                                 [this](std::size_t i, std::size_t j) { return areAlike(i, j); });
+    });
+    if (like == out.end()) {
+      out.push_back(other);
+      continue;
+    }
+    for (const std::size_t place : like->which)
+      if (std::find(other.which.begin(), other.which.end(), place) == other.which.end())
+        like->any_body.push_back(place);
   }
-  return out;
-}
-
-std::optional<SeveralNamed> nameEach(const Pursuit& pursuit, const Mistakes& mistakes, const VectorXd& residual,
-                                     const EffortsTogether& together, const NameAlone& name) {
-  std::vector<std::pair<NamedCause, std::string>> members;
-  const std::optional<VectorXd> all = pursuit.efforts(mistakes, together);
-  for (std::size_t i = 0; i < mistakes.which.size(); ++i) {
-    const std::optional<VectorXd> one = pursuit.efforts(alone(mistakes, i), together);
-    if (!all || !one) return std::nullopt;
-    const VectorXd effect = residual + (*one - *all);
-    std::optional<std::pair<NamedCause, std::string>> named = name(effect);
-    if (!named) return std::nullopt;
-    named->first.explained = std::clamp(residual.dot(effect) / residual.squaredNorm(), 0.0, 1.0);
-    const auto& any = mistakes.any_body;
-    if (std::find(any.begin(), any.end(), mistakes.which[i]) != any.end()) named->first.body.clear();
-    members.push_back(std::move(*named));
-  }
-  std::stable_sort(members.begin(), members.end(),
-                   [](const auto& a, const auto& b) { return a.first.explained > b.first.explained; });
-  SeveralNamed out{{}, members.size() == 2 ? "two mistakes together: " : "three mistakes together: "};
-  for (const auto& [cause, words] : members) {
-    const double percents = 100 * cause.explained;
-    out.words += (out.together.empty() ? "" : out.together.size() + 1 == members.size() ? ", and " : ", ") + words;
-    out.words += percents < 0.1 ? " (less than 0.1 %)" : fmt::format(" ({:.3g} %)", percents);
-    out.together.push_back(cause);
-  }
-  const auto order = std::find_if(out.together.begin(), out.together.end(),
-                                  [](const NamedCause& one) { return one.kind == CauseKind::order; });
-  for (NamedCause& one : out.together)  // whether a factor or an offset came before the order is unknown
-    if (order != out.together.end() && one.motor > 0 &&
-        order->legs[static_cast<std::size_t>(one.motor - 1)] != one.motor)
-      one.motor = 0;
   return out;
 }
 

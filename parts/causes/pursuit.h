@@ -45,6 +45,12 @@ struct Mistakes {
   std::vector<std::size_t> any_body = {};  ///< those of `which` that another set has of another body
 };
 
+/// What the numbers of several mistakes lack of certainty because they are fitted together, for each mistake.
+struct NumbersDoubt {
+  Eigen::VectorXd inflation;  ///< times as uncertain as alone; 1 or more
+  Eigen::VectorXd shift;      ///< another number if the mistakes act in the other order, and then explain as much
+};
+
 /// Efforts with some suspects' mistakes at once; nullopt if there are none.
 using EffortsTogether =
     std::function<std::optional<Eigen::VectorXd>(const std::vector<std::size_t>& which, const Eigen::VectorXd& x)>;
@@ -58,10 +64,12 @@ class Pursuit {
   /// Returns all pairs that explain everything, those with fewest numbers first; otherwise all such triples. Each of
   /// their mistakes is needed: without it much more is left.
   std::vector<Mistakes> all() const;
-  /// The first of `all`, unless another with as few numbers is unlike it.
-  std::optional<Mistakes> only() const;
+  /// Those of `all` with fewest numbers, without such that are like an earlier one.
+  std::vector<Mistakes> best() const;
   /// The efforts with these mistakes by another `together`, as of further instants.
   std::optional<Eigen::VectorXd> efforts(const Mistakes& of, const EffortsTogether& together) const;
+  /// How well the numbers are known beside each other.
+  NumbersDoubt doubt(const Mistakes& mistakes) const;
 
  private:
   void addOutputs();
@@ -71,6 +79,8 @@ class Pursuit {
   bool hasNumber(std::size_t place) const;
   double step(std::size_t place) const { return isOutput(place) ? 1e-5 : suspects_[place].step; }
   Eigen::VectorXd left(const Mistakes& of) const;
+  Eigen::MatrixXd slopes(const Mistakes& at, const std::vector<Eigen::Index>& numbers) const;
+  std::vector<Eigen::Index> numbersOf(const Mistakes& mistakes) const;
   void improve(Mistakes& mistakes, int steps) const;
   std::vector<Mistakes> singles() const;
   void extend(const Mistakes& start, std::vector<Mistakes>& out) const;
@@ -92,15 +102,25 @@ class Pursuit {
 struct SeveralNamed {
   std::vector<NamedCause> together;
   std::string words;
+  std::vector<NamedCause> ties = {};  ///< what explains as much as one of them
+  bool is_sure = true;                ///< nothing else explains as much
 };
 
-/// Names one mistake, in the contract's terms and in words, by what the efforts would be if it were the only one: right
-/// ones and `effect`. Returns nullopt unless it has one name.
-using NameAlone = std::function<std::optional<std::pair<NamedCause, std::string>>(const Eigen::VectorXd& effect)>;
+/// The name of one mistake, in the contract's terms and in words, which say what explains as much.
+struct NamedAlone {
+  NamedCause cause;
+  std::string words;
+  std::vector<NamedCause> ties = {};
+  bool is_sure = true;
+};
+/// Names one mistake by what the efforts would be if it were the only one: right ones and `effect`. Returns nullopt if
+/// it has no name.
+using NameAlone = std::function<std::optional<NamedAlone>(const Eigen::VectorXd& effect)>;
 
-/// Names each mistake as if it were the only one, by what remains of the residual without the others. `together`
-/// answers at all instants of the residual.
-std::optional<SeveralNamed> nameEach(const Pursuit& pursuit, const Mistakes& mistakes, const Eigen::VectorXd& residual,
-                                     const EffortsTogether& together, const NameAlone& name);
+/// Names each mistake of the first of `sets` as if it were the only one, by what remains of the residual without the
+/// others, and says which other sets explain as much. `together` answers at all instants of the residual.
+std::optional<SeveralNamed> nameEach(const Pursuit& pursuit, const std::vector<Mistakes>& sets,
+                                     const Eigen::VectorXd& residual, const EffortsTogether& together,
+                                     const NameAlone& name);
 
 }  // namespace ursula

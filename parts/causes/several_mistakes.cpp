@@ -114,7 +114,7 @@ TorqueResidual innerOf(const TorqueResidual& data, double duration) {
 
 /// Names the cause of efforts that differ from the right ones by `effect`.
 NameAlone nameAlone(const Scenario& scenario, const TorqueResidual& data) {
-  return [&scenario, &data](const VectorXd& effect) -> std::optional<std::pair<NamedCause, std::string>> {
+  return [&scenario, &data](const VectorXd& effect) -> std::optional<NamedAlone> {
     TorqueResidual alone = data;
     for (std::size_t k = 0; k < data.motions.size(); ++k)
       alone.residual[k] = effect.segment<motor_count>(motor_count * static_cast<Eigen::Index>(k));
@@ -122,9 +122,12 @@ NameAlone nameAlone(const Scenario& scenario, const TorqueResidual& data) {
     const std::vector<Hypothesis> fitted = fitHypotheses(scenario, alone);
     if (fitted.empty()) return std::nullopt;
     const std::vector<Hypothesis> best = bestOf(fitted);
+    if (!explains(best.front()) || !best.front().named) return std::nullopt;
     const Explanation said = named(best, alone, best.front().text);
-    if (!explains(best.front()) || !said.named) return std::nullopt;
-    return std::pair(*said.named, said.text);
+    if (said.named) return NamedAlone{*said.named, said.text};
+    if (said.others.empty()) return std::nullopt;
+    return NamedAlone{
+        said.others.front(), said.text + othersText(best), {said.others.begin() + 1, said.others.end()}, false};
   };
 }
 
@@ -144,16 +147,22 @@ Explanation severalMistakes(const Scenario& scenario, const TorqueResidual& data
   const Together together(scenario, causes);
   const Pursuit pursuit(std::move(suspects), right, right + stacked(few.residual), data.growth() * stacked(few.limit),
                         motor_count, together.at(few.motions));
-  const std::optional<Mistakes> mistakes = pursuit.only();
-  if (!mistakes) return {};
-  const auto& which = mistakes->which;
+  const std::vector<Mistakes> sets = pursuit.best();
+  if (sets.empty()) return {};
+  const auto& which = sets.front().which;
   const bool is_late = has_delay && std::find(which.begin(), which.end(), std::size_t{0}) != which.end();
   const TorqueResidual& there = is_late ? inner : data;
   const std::optional<SeveralNamed> each =
-      nameEach(pursuit, *mistakes, stacked(there.residual), together.at(there.motions), nameAlone(scenario, there));
+      nameEach(pursuit, sets, stacked(there.residual), together.at(there.motions), nameAlone(scenario, there));
   if (!each) return {};
-  Explanation out{each->words, each->together.front()};
-  out.together = each->together;
+  Explanation out{each->words};
+  if (each->is_sure) {
+    out.named = each->together.front();
+    out.together = each->together;
+  } else {
+    out.others = each->together;
+    out.others.insert(out.others.end(), each->ties.begin(), each->ties.end());
+  }
   return out;
 }
 

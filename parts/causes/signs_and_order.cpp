@@ -130,6 +130,8 @@ std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data) {
     for (const std::size_t leg : best) out.named->legs.push_back(static_cast<int>(leg) + 1);
   else
     nameMotors(flipped, *out.named);
+  if (is_order && !flipped.empty())
+    for (std::size_t i = 0; i < columns; ++i) out.named->signs.push_back(pairs.sign[i][best[i]] < 0 ? -1 : 1);
   return out;
 }
 

@@ -78,7 +78,8 @@ std::string TiedParameters::text(const ManipulatorParameters& machine, double re
   const double before = first.get(machine), after = first.get(changed), spread = std::abs(first.get(further) - after);
   const auto change = [&](const Parameter& each) { return each.get(changed) - each.get(machine); };
   if (areEqual(machine, members))
-    return fmt::format("{} {}{} instead of {:.9g}", words, withDeviation(after, spread), unit, before);
+    return fmt::format("{} {}{} instead of {:.9g}", words, withDeviation(after, spread, std::abs(before)), unit,
+                       before);
   if (together || areAlike(members, change))
     return fmt::format("{} off by {}{}", words, withDeviation(after - before, spread), unit);
   const std::string amount = withDeviation(relative, deviation);

@@ -17,6 +17,9 @@ namespace {
 
 using Machine = ManipulatorParameters;
 
+/// Further digits are not printed, relative to the number.
+constexpr double most_digits = 1e-9;
+
 Subject nocOf(const Machine& machine, const Scenario& scenario) {
   return nocSubject(withoutStroke(Manipulator(machine)), scenario.load);
 }
@@ -87,10 +90,12 @@ std::vector<Vector6d> Cause::torques(double x, const std::vector<Motion<double>>
   return out;
 }
 
-std::string withDeviation(double value, double deviation) {
+std::string withDeviation(double value, double deviation, double scale) {
   const double size = std::abs(value);
+  if (size == 0 || (size <= deviation && deviation <= most_digits * scale)) return "0";
   if (deviation == 0) return fmt::format("{:.9g}", value);
-  if (!(deviation > 1e-9 * size && std::isfinite(deviation))) return fmt::format("{:.9g} +- {:.1g}", value, deviation);
+  if (!(deviation > most_digits * size && std::isfinite(deviation)))
+    return fmt::format("{:.9g} +- {:.1g}", value, deviation);
   if (size <= deviation) return fmt::format("0 +- {:.1g}", deviation);
   const int place = static_cast<int>(std::floor(std::log10(deviation)));
   return fmt::format("{:.{}f} +- {:.1g}", value, std::clamp(-place, 0, 15), deviation);

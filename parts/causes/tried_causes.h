@@ -57,8 +57,9 @@ struct CauseName {
   CauseName(std::string words, const NamedCause& typed) : text(std::move(words)), named(typed) {}
 };
 
-/// "499.31 +- 0.02", to the deviation's digits but at most ten; "499.31" without a deviation.
-std::string withDeviation(double value, double deviation);
+/// "499.31 +- 0.02", to the deviation's digits but at most ten; "499.31" without a deviation. "0" for zeros, and for
+/// what differs from zero by less than the deviation and by no printed digit of `scale`.
+std::string withDeviation(double value, double deviation, double scale = 0);
 
 class MachineSlopes;
 struct TiedParameters;

@@ -120,6 +120,13 @@ void requireMechanism(const ModelGraph& graph) {
         fmt::format("{}; leave_out = [\"{}\"] in [mechanism] reads the file without them", force.refusal, force.kind),
         force.line);
   for (const GraphJoint& joint : graph.joints) {
+    const GraphBody &parent = graph.bodies[joint.parent], &child = graph.bodies[joint.child];
+    if (joint.parent == joint.child)
+      refuseJoint(joint, fmt::format(": it joins {} to itself, expected two bodies", shown(parent.name)));
+    if (joint.closure && parent.fixed && child.fixed)
+      refuseJoint(joint, fmt::format(": it closes a loop between {} and {}, which both stand still, expected one that "
+                                     "moves; see the closure's bodies and `base`",
+                                     shown(parent.name), shown(child.name)));
     const bool is_ball = joint.kind == JointKind::ball;
     if (joint.stiffness != 0 && freedomsOf(joint.kind) != 1)
       refuseJoint(joint,

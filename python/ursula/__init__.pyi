@@ -281,6 +281,9 @@ class Cause:
     @property
     def legs(self) -> list[int] | None: ...
     @property
+    def signs(self) -> list[int] | None:
+        """Of an order: 1, or -1 for a column with the wrong sign."""
+    @property
     def expected(self) -> float | None: ...
     @property
     def found(self) -> float | None: ...
@@ -357,6 +360,12 @@ class Result:
     def findings(self) -> list[Finding]: ...
     @property
     def deviation(self) -> Deviation | None: ...
+    @property
+    def size(self) -> str | None:
+        """"rounding", "modelling" or "wrong"; None if no effort is wrong. `summary["size"]` has the numbers."""
+    @property
+    def remedy(self) -> str:
+        """A change of the scenario with which the efforts are right, in words; else empty."""
     @property
     def cause(self) -> Cause | None: ...
     @property

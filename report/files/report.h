@@ -67,6 +67,13 @@ bool onlyFastFails(const std::vector<Check>& checks);
 /// Returns "Right to 0.03 %: the largest deviation is 7.4 N m of 25066 N m, leg 3 at t = 2.97 s; …", followed by the
 /// effect of such errors and the smallest --rtol that would pass; empty if no effort was compared.
 std::string deviationSentence(const ValidationResult& result);
+/// Returns the same as lines, one thought each.
+std::vector<std::string> deviationLines(const ValidationResult& result);
+
+/// Returns "a modelling difference", "wrong: more than the least term …"; empty if no effort is wrong.
+std::string sizeText(const ValidationResult& result);
+/// Returns "With spin = "free" in [manipulator.leg_defaults] the forces are right"; empty if no such change is known.
+std::string remedyText(const ValidationResult& result);
 
 /// Returns value / limit, and 0 for values below zero; NaN without a value or without a finite non-negative limit.
 double limitShare(const Check& check);

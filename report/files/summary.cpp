@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/json_text.h"
 #include "report/files/report.h"
@@ -40,6 +41,16 @@ Json deviationJson(const EffortDeviation& deviation) {
           {"allowed", deviation.allowed}};
 }
 
+Json sizeJson(const FailureSize& size, const std::optional<EffortDeviation>& deviation) {
+  Json out = {{"grade", name(size.grade)}, {"limits", size.limits}, {"rounding", size.rounding}};
+  if (!size.least_term.empty()) out["least_term"] = {{"term", size.least_term}, {"share", size.least_share}};
+  if (deviation && deviation->smallestRelative() < 1) out["rtol"] = deviation->smallestRelative();
+  out["remedy"] = Json::array();
+  for (const ScenarioChange& change : size.remedy)
+    out["remedy"].push_back({{"key", change.key}, {"value", change.value}});
+  return out;
+}
+
 // A repeated key keeps both texts.
 Json object(const std::vector<std::pair<std::string, std::string>>& facts) {
   Json json = Json::object();
@@ -64,6 +75,7 @@ Json causeJson(const NamedCause& cause) {
   if (cause.leg > 0) json["leg"] = cause.leg;
   if (cause.motor > 0) json["motor"] = cause.motor;
   if (!cause.legs.empty()) json["legs"] = cause.legs;
+  if (!cause.signs.empty()) json["signs"] = cause.signs;
   addText("parameter", cause.parameter);
   addNumber("expected", cause.expected);
   addNumber("found", cause.found);
@@ -123,6 +135,8 @@ std::string summaryJson(const ValidationResult& result) {
                   {"findings", object(findingTexts(result))},
                   {"provenance", object(result.provenance)}};
   if (result.deviation) summary["deviation"] = deviationJson(*result.deviation);
+  if (result.needed) summary["needed"] = {{"rows", result.needed->rows}, {"given", result.needed->given}};
+  if (result.size) summary["size"] = sizeJson(*result.size, result.deviation);
   addCauses(result, summary);
   if (result.blind) summary["blind"] = blindJson(*result.blind);
   return jsonText(summary, 2) + "\n";

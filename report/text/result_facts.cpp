@@ -117,11 +117,18 @@ std::string inPrint(const CauseWords& words, const char* mark) {
   return ". Likely cause: " + cause;
 }
 
+/// "are wrong", or less than that.
+const char* areWrong(const ValidationResult& result) {
+  if (!result.size || result.size->grade == FailureGrade::wrong) return "are wrong";
+  return result.size->grade == FailureGrade::rounding ? "are off by rounding" : "differ in the model";
+}
+
 std::string failed(const ValidationResult& result, const ResultFacts& facts) {
+  const std::string wrong = facts.subject + " " + areWrong(result), remedy = remedyText(result);
+  const std::string end = remedy.empty() ? "." : ". " + remedy + ".";
   if (const std::string worst = worstMotor(result); !worst.empty())
-    return fmt::format("{} are wrong: {}{}.", facts.subject, worst,
-                       facts.wrong.cause.empty() ? "" : inPrint(facts.wrong, ". "));
-  if (!facts.wrong.cause.empty()) return facts.subject + " are wrong" + inPrint(facts.wrong, ": ") + ".";
+    return wrong + ": " + worst + (facts.wrong.cause.empty() ? "" : inPrint(facts.wrong, ". ")) + end;
+  if (!facts.wrong.cause.empty()) return wrong + inPrint(facts.wrong, ": ") + end;
   const Check* worst = worstCheck(result.checks);
   if (worst == nullptr) return "No check was made.";
   const std::string numbers = std::isfinite(worst->value) && std::isfinite(worst->limit)
@@ -135,7 +142,7 @@ std::string failed(const ValidationResult& result, const ResultFacts& facts) {
   if (onlyFastFails(result.checks))
     return fmt::format("The fast kernels that users call are wrong, {} hold. {}: {} ({}).", lower(facts.subject), title,
                        numbers, worst->largest.where);
-  return fmt::format("{} do not hold. {}: {}.", facts.subject, title, numbers);
+  return fmt::format("{} do not hold. {}: {}{}", facts.subject, title, numbers, end);
 }
 
 /// The limit at the replay's end; NaN if unknown.

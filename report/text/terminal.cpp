@@ -247,12 +247,14 @@ std::string worstOfMechanism(const ValidationResult& result) {
 
 /// The verdict with its size and its cause.
 std::string headText(const ValidationResult& result, const std::string& verdict) {
-  const std::string deviation = deviationSentence(result), worst = worstOfMechanism(result);
+  const std::string worst = worstOfMechanism(result), size = sizeText(result), remedy = remedyText(result);
   std::string out = fmt::format("{}: {}\nverdict: {} — {}\n", withoutControls(result.scenario), verdict, verdict,
                                 reason(result.verdict, result.checks));
-  if (!deviation.empty()) out += deviation + "\n";
+  for (const std::string& line : deviationLines(result)) out += line + "\n";
   if (!worst.empty()) out += fmt::format("worst: {}\n", withoutControls(worst));
+  if (!size.empty()) out += "size: " + size + "\n";
   if (!result.cause_words.cause.empty()) out += causeText(result.cause_words) + "\n";
+  if (!remedy.empty()) out += "remedy: " + withoutControls(remedy) + "\n";
   return out;
 }
 
@@ -282,6 +284,7 @@ std::string quietText(const ValidationResult& result, bool coloured) {
   if (!words.cause.empty() && out.back() == '.') out.pop_back();
   if (const std::string worst = worstOfMechanism(result); !worst.empty()) out += " — " + withoutControls(worst);
   if (!words.cause.empty()) out += "; " + causeText(words);
+  if (const std::string remedy = remedyText(result); !remedy.empty()) out += ". " + withoutControls(remedy);
   return inOneLine(out);
 }
 

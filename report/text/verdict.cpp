@@ -120,9 +120,8 @@ std::string plainQuantity(double value, const char* unit) {
 std::string driftText(const EffortDeviation& deviation) {
   if (!std::isfinite(deviation.drift) || deviation.largest == 0) return "";
   if (deviation.drift > deviation.length)
-    return fmt::format("from errors of this size the open-loop motion may be lost within {:.3g} s; ",
-                       deviation.duration);
-  return fmt::format("from errors of this size the open-loop motion would drift by up to {} in {:.3g} s; ",
+    return fmt::format("from errors of this size the open-loop motion may be lost within {:.3g} s", deviation.duration);
+  return fmt::format("from errors of this size the open-loop motion would drift by up to {} in {:.3g} s",
                      plainQuantity(deviation.drift, "m"), deviation.duration);
 }
 
@@ -138,10 +137,10 @@ std::string roundedUp(double value, int digits) {
 /// Two numbers: smaller errors, or shorter ones between the instants, may be there.
 std::string seenText(const EffortDeviation& deviation, const std::string& effort) {
   if (!std::isfinite(deviation.seen)) return "";
-  if (deviation.seen >= 1) return fmt::format(" An error as large as the largest {} would not have been seen.", effort);
+  if (deviation.seen >= 1) return fmt::format("an error as large as the largest {} would not have been seen", effort);
   const std::string where = deviation.seen_for > 0 ? "that lasts longer than " + plainQuantity(deviation.seen_for, "s")
                                                    : "at one of the judged instants";
-  return fmt::format(" An error of {} of the largest {} {} would have been seen.", roundedUp(deviation.seen, 1), effort,
+  return fmt::format("an error of {} of the largest {} {} would have been seen", roundedUp(deviation.seen, 1), effort,
                      where);
 }
 
@@ -151,26 +150,90 @@ std::string toleranceText(const EffortDeviation& deviation) {
   return smallest >= 1 ? "no --rtol would pass" : "the smallest --rtol that would pass is " + roundedUp(smallest, 5);
 }
 
-}  // namespace
+/// "spin = "free" in [manipulator.leg_defaults]", for each table of the scenario; words of one list are together.
+std::string changesText(const std::vector<ScenarioChange>& changes) {
+  static const std::string numbers = "mechanism.numbers.", list = "mechanism.leave_out";
+  std::string out, left_out;
+  const auto add = [&out](const std::string& text) { out += (out.empty() ? "" : " and ") + text; };
+  for (const auto& [key, value] : changes) {
+    const std::size_t dot = key.rfind('.');
+    if (key == list)
+      left_out += fmt::format("{}\"{}\"", left_out.empty() ? "" : ", ", value);
+    else if (key.rfind(numbers, 0) == 0)
+      add(fmt::format("\"{}\" = {} in [mechanism.numbers]", key.substr(numbers.size()), value));
+    else
+      add(fmt::format("{} = {} in [{}]", key.substr(dot + 1), value == "{}" ? value : '"' + value + '"',
+                      key.substr(0, dot)));
+  }
+  if (!left_out.empty()) add(fmt::format("leave_out = [{}] in [mechanism]", left_out));
+  return out;
+}
 
-std::string deviationSentence(const ValidationResult& result) {
-  if (!result.deviation) return "";
+std::string capitalised(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+/// What is known of the deviation, one thought each, in lower case and without full stops.
+std::vector<std::string> deviationTexts(const ValidationResult& result) {
+  if (!result.deviation) return {};
   const EffortDeviation& deviation = *result.deviation;
   if (std::isnan(deviation.largest))
-    return fmt::format("The largest deviation is unknown: {} {} is not a number.", result.effort[0] == 'e' ? "an" : "a",
-                       result.effort);
+    return {fmt::format("The largest deviation is unknown: {} {} is not a number", result.effort[0] == 'e' ? "an" : "a",
+                        result.effort)};
   if (deviation.largest_effort == 0)
-    return fmt::format("No {} is needed here; the largest that was found is {:.3g} {}.", result.effort,
-                       deviation.largest, deviation.unit);
+    return {fmt::format("No {} is needed here; the largest that was found is {:.3g} {}", result.effort,
+                        deviation.largest, deviation.unit)};
   constexpr double right = 1e-6;  // efforts with larger errors are not called right
   const std::string without =
       deviation.without.empty() ? "" : fmt::format("Against all formulations but {}'s: ", deviation.without);
-  return fmt::format("{}{} {}: the largest deviation is {} {} of {:.6g} {}, {} at t = {:.4g} s; {}{}.{}", without,
-                     deviation.relative() <= right || deviation.largest == 0 ? "Right to" : "Off by at most",
-                     shareText(deviation.relative()),
-                     fmt::format(deviation.largest < 1000 ? "{:.3g}" : "{:.0f}", deviation.largest), deviation.unit,
-                     deviation.largest_effort, deviation.unit, deviation.where, deviation.t, driftText(deviation),
-                     toleranceText(deviation), seenText(deviation, result.effort));
+  std::vector<std::string> out = {fmt::format(
+      "{}{} {}: the largest deviation is {} {} of {:.6g} {}, {} at t = {:.4g} s", without,
+      deviation.relative() <= right || deviation.largest == 0 ? "Right to" : "Off by at most",
+      shareText(deviation.relative()), fmt::format(deviation.largest < 1000 ? "{:.3g}" : "{:.0f}", deviation.largest),
+      deviation.unit, deviation.largest_effort, deviation.unit, deviation.where, deviation.t)};
+  for (const std::string& more : {driftText(deviation), toleranceText(deviation), seenText(deviation, result.effort)})
+    if (!more.empty()) out.push_back(more);
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> deviationLines(const ValidationResult& result) {
+  std::vector<std::string> out;
+  for (const std::string& text : deviationTexts(result)) out.push_back(capitalised(text) + ".");
+  return out;
+}
+
+std::string deviationSentence(const ValidationResult& result) {
+  std::string out;
+  for (const std::string& text : deviationTexts(result)) {
+    const bool begins = out.empty() || text.rfind("an error", 0) == 0;
+    out += out.empty() ? text : begins ? ". " + capitalised(text) : "; " + text;
+  }
+  return out.empty() ? out : out + ".";
+}
+
+std::string remedyText(const ValidationResult& result) {
+  if (!result.size || result.size->remedy.empty()) return "";
+  return fmt::format("With {} the {}s are right", changesText(result.size->remedy), result.effort);
+}
+
+std::string sizeText(const ValidationResult& result) {
+  if (!result.size) return "";
+  const FailureSize& size = *result.size;
+  const std::string least = fmt::format("the least term of the equations, {}, whose effect is {}", size.least_term,
+                                        shareText(size.least_share));
+  switch (size.grade) {
+    case FailureGrade::rounding:
+      return fmt::format("rounding: {:.3g} times the limit", size.limits);
+    case FailureGrade::modelling:
+      if (!size.remedy.empty()) return "a modelling difference";
+      return "a modelling difference: less than " + least;
+    case FailureGrade::wrong:
+      break;
+  }
+  return size.least_term.empty() ? "wrong" : "wrong: more than " + least;
 }
 
 }  // namespace ursula

@@ -1,8 +1,11 @@
 // The verdict of mechanisms: right efforts pass, wrong ones fail with the motor named.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -226,6 +229,85 @@ TEST(MechanismCover, ofAPartOfTheMotionIsInconclusive) {
     EXPECT_EQ(judged(scenario, rowsOf(all, 0, 99)).verdict, Verdict::pass) << "the last row is one step early";
     EXPECT_EQ(judged(scenario, rowsOf(all, 0, 100, 5)).verdict, Verdict::pass) << "21 rows";
   }
+
+/// Friction of passive joints is in the model and not in the efforts: the scenario can leave it out.
+TEST(MechanismSize, namesWhatTheScenarioCanLeaveOut) {
+  const MechanismScenario scenario = loopScenario("fourbar");
+  const MechanismScenario rubbing = changedScenario(scenario, [](MechanismParameters& machine) {
+    for (MechanismJoint& joint : machine.joints)
+      if (!joint.closure) joint.damping = 0.05;
+  });
+  const auto without = [&](bool motors) {
+    return changedScenario(rubbing, [motors](MechanismParameters& machine) {
+      for (MechanismJoint& joint : machine.joints)
+        if (joint.driven == motors) joint.damping = 0;
+    });
+  };
+  const ValidationResult passive = judged(rubbing, effortsOf(without(false)));
+  ASSERT_TRUE(passive.size);
+  EXPECT_EQ(passive.size->grade, FailureGrade::modelling);
+  ASSERT_EQ(passive.size->remedy.size(), 1U);
+  EXPECT_EQ(passive.size->remedy.front().key, "mechanism.leave_out");
+  EXPECT_EQ(passive.size->remedy.front().value, "passive-friction");
+  EXPECT_EQ(judged(without(false), effortsOf(without(false))).verdict, Verdict::pass);
+  const ValidationResult motors = judged(rubbing, effortsOf(without(true)));
+  ASSERT_TRUE(motors.size);
+  ASSERT_EQ(motors.size->remedy.size(), 1U);
+  EXPECT_EQ(motors.size->remedy.front().key,
+            "mechanism.numbers.joint." + scenario.mechanism->motor(0).name + ".damping");
+  const ValidationResult heavier = judged(rubbing, effortsOf(changedScenario(rubbing, [](MechanismParameters& machine) {
+                                            for (MechanismBody& body : machine.bodies) body.mass *= 1.1;
+                                          })));
+  ASSERT_TRUE(heavier.size);
+  EXPECT_TRUE(heavier.size->remedy.empty());
+}
+
+std::string samplesWith(double factor, bool euler) {
+  std::string text = "t_s,q_1_rad,qdot_1_rad_s\n";
+  double q = 0;
+  for (int i = 0; i <= 100; ++i) {
+    const double t = 0.02 * i, rate = 0.4 * std::cos(2 * t);
+    if (euler && i > 0) q += 0.02 * rate;
+    text += fmt::format("{},{},{}\n", t, euler ? q : 0.2 * std::sin(2 * t), factor * rate);
+  }
+  return text;
+}
+
+/// Rates that are those of another motion are refused; those of a step of first order are no contradiction.
+TEST(MechanismSamples, haveRatesThatBelongToTheirCoordinates) {
+  const MechanismScenario scenario = loopScenario("fourbar");
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& text) {
+    const auto file = folder.path() / "motion.csv";
+    std::ofstream(file) << text;
+    return readMotorSamples(file, *scenario.mechanism);
+  };
+  EXPECT_NO_THROW(read(samplesWith(1, false)));
+  EXPECT_NO_THROW(read(samplesWith(1, true)));
+  for (const double factor : {-1.0, 57.3, 1.1}) try {
+      read(samplesWith(factor, false));
+      ADD_FAILURE() << factor;
+    } catch (const CsvError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("qdot_1_rad_s is"));
+      EXPECT_THAT(error.what(), testing::HasSubstr("motion.csv:"));
+    }
+}
+
+TEST(MechanismClosures, joinTwoBodiesOfWhichOneMoves) {
+  const MechanismScenario scenario = loopScenario("fourbar");
+  const std::string link = scenario.mechanism->bodies()[scenario.mechanism->output()].name;
+  const auto refusal = [&](const std::string& close) -> std::string {
+    MechanismChoices choices;
+    choices.close = {close};
+    try {
+      partModelReader()(scenario.model, choices);
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(refusal(link + ":" + link), testing::HasSubstr("it joins " + link + " to itself"));
+  EXPECT_THAT(refusal("world:world"), testing::HasSubstr("to itself"));
 }
 
 }  // namespace

@@ -87,6 +87,24 @@ TEST(External, tooFewSamplesLeaveTheReplayOpen) {
   }
 }
 
+TEST(External, theRowsThatAreSaidToDoAreJudgedAndMuchFewerAreNot) {
+  for (const int count : {5, 8}) {
+    const ValidationResult sparse = validateExternal(helix(), exactTorques(helix(), count).file());
+    ASSERT_TRUE(sparse.needed) << count;
+    const auto enough = static_cast<int>(sparse.needed->rows);
+    EXPECT_EQ(sparse.needed->given, static_cast<std::size_t>(count));
+    EXPECT_THAT(findCheck(sparse.checks, "replay.position")->why,
+                HasSubstr(std::to_string(enough) + " equally spaced rows"));
+    const ValidationResult result = validateExternal(helix(), exactTorques(helix(), enough).file());
+    EXPECT_EQ(result.verdict, Verdict::pass) << enough << ": " << firstFailing(result.checks);
+    EXPECT_FALSE(result.needed);
+    EXPECT_EQ(validateExternal(helix(), exactTorques(helix(), 3 * enough / 4).file()).verdict, Verdict::inconclusive);
+  }
+  const ValidationResult coarse = validateExternal(helix(), exactTorques(helix(), 8).printed("{:.3g}"));
+  EXPECT_FALSE(coarse.needed);
+  EXPECT_THAT(findCheck(coarse.checks, "replay.position")->why, HasSubstr("give more digits"));
+}
+
 TEST(External, aPartOfTheMotionLeavesTheReplayOpen) {
   TorqueTable part = exactTorques(helix(), 61);
   part.t.erase(part.t.begin());

@@ -84,6 +84,16 @@ TEST_P(MechanismCause, NamesOrderDelayDigitsAndWindow) {
     const ValidationResult swapped = judgeEfforts(machine, [](std::size_t, auto& tau) { std::swap(tau(0), tau(1)); });
     ASSERT_TRUE(swapped.cause) << swapped.cause_words.cause;
     EXPECT_EQ(swapped.cause->kind, CauseKind::order);
+    EXPECT_TRUE(swapped.cause->signs.empty());
+    const ValidationResult turned = judgeEfforts(machine, [](std::size_t, auto& tau) {
+      std::swap(tau(0), tau(1));
+      tau(1) = -tau(1);
+    });
+    ASSERT_TRUE(turned.cause) << turned.cause_words.cause;
+    ASSERT_EQ(turned.cause->signs.size(), machine.mechanism().motorCount());
+    EXPECT_EQ(turned.cause->signs[0], 1);
+    EXPECT_EQ(turned.cause->signs[1], -1);
+    EXPECT_THAT(turned.cause_words.cause, HasSubstr("column 2 has the wrong sign"));
   }
   const ValidationResult late = machine.judge(machine.efforts(machine.parameters(), 0.004));
   ASSERT_TRUE(late.cause) << late.cause_words.cause;

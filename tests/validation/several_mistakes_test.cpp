@@ -152,6 +152,45 @@ TEST(SeveralMistakes, ofAnOrderOrAFactorAfterATerm) {
   expectTogether(larger, {CauseKind::scale, CauseKind::missing_term}, "a factor of 1.1 on leg 3");
 }
 
+/// A factor and an offset of one motor explain the same in either order, with another offset. The truth is within what
+/// is said, though each fit alone is exact to 14 digits.
+TEST(SeveralMistakes, sayHowFarTheirNumbersDependOnTheOrder) {
+  for (const bool offset_first : {false, true}) {
+    Rows efforts = platform().right();
+    for (Vector6d& row : efforts) row(2) = offset_first ? 1.02 * (row(2) + 2) : 1.02 * row(2) + 2;
+    const Diagnosis said = platform().said(efforts);
+    const auto offset = std::find_if(said.together.begin(), said.together.end(),
+                                     [](const NamedCause& one) { return one.kind == CauseKind::offset; });
+    ASSERT_NE(offset, said.together.end()) << said.cause;
+    ASSERT_TRUE(offset->found && offset->uncertainty) << said.cause;
+    EXPECT_LE(std::abs(*offset->found - 2), *offset->uncertainty + 1e-9) << said.cause;
+    EXPECT_LT(*offset->uncertainty, 0.1);
+    EXPECT_THAT(said.cause, HasSubstr("+- 0.04"));
+  }
+}
+
+/// Numbers whose effects are nearly alike are less certain together than each alone.
+TEST(Pursuit, knowsAlikeNumbersLessWell) {
+  Additive here;
+  here.suspects.push_back(
+      {{CauseKind::parameter, "", "", "length"}, here.suspects[5].effect + 0.1 * here.drawn(), true});
+  const VectorXd found = here.right + 0.3 * here.suspects[5].effect + 0.2 * here.suspects[6].effect;
+  const Pursuit pursuit(here.suspects, here.right, found, here.limit, 2,
+                        [&](const auto& which, const VectorXd& x) { return std::optional(here.with(which, x)); });
+  const std::vector<Mistakes> sets = pursuit.all();
+  ASSERT_EQ(sets.size(), 1U);
+  const NumbersDoubt doubt = pursuit.doubt(sets.front());
+  EXPECT_GT(doubt.inflation.minCoeff(), 3);
+  EXPECT_LT(doubt.shift.maxCoeff(), 1e-6) << "their order makes no difference";
+}
+
+TEST(Words, sayZeroForZeros) {
+  EXPECT_EQ(withDeviation(0, 1e-11), "0");
+  EXPECT_EQ(withDeviation(5e-16, 2e-14, 9.81), "0");
+  EXPECT_EQ(withDeviation(0.3, 0.5, 62), "0.3 +- 0.5") << "it is not known to be zero";
+  EXPECT_EQ(withDeviation(5e-3, 2e-14, 9.81), "0.005 +- 2e-14");
+}
+
 /// One mistake is never two, and neither is one with noise that no mistake makes.
 TEST(SeveralMistakes, areNotClaimedForOne) {
   const Rows one = platform().answers(without(FormulaError::drop_gyroscopic_platform));

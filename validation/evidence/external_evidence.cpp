@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 
+#include "model/instants.h"
 #include "validation/evidence/reference.h"
 #include "validation/replay/windows.h"
 #include "validation/subject/subject.h"
@@ -83,14 +84,22 @@ class SplineLimit {
       : t_(torques.file.t), grid_(std::move(grid)) {
     const RoundingProfile profile(scenario, profileInstants(static_cast<int>(grid_.size())), deadline);
     conditions_ = conditionsAt(scenario, grid_, profile, deadline);
-    const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
-    interpolation_ = interpolationErrors(t_, [&](double t) {
+    noc_ = [noc = nocSubject(*scenario.manipulator, scenario.load), motion = scenario.trajectory, deadline](double t) {
       deadline.require();
-      return noc.torques(scenario.trajectory->at(t));
-    });
-    std::vector<double> norms;
-    for (const PointwiseSample& sample : torques.samples) norms.push_back(sample.torques_given.norm());
-    digits_ = carriedErrors(t_, norms);
+      return noc.torques(motion->at(t));
+    };
+    for (const PointwiseSample& sample : torques.samples) norms_.push_back(sample.torques_given.norm());
+    if (t_.size() >= TorqueSpline::least_samples) setErrors();
+  }
+
+  /// The same for equally spaced rows with the coarsest of these digits, perhaps without the errors between them.
+  SplineLimit withRows(std::size_t rows, bool digits_alone) const {
+    SplineLimit out = *this;
+    out.t_ = equallySpaced(grid_.back(), static_cast<int>(rows));
+    out.norms_.assign(rows, norms_.empty() ? 0 : *std::max_element(norms_.begin(), norms_.end()));
+    out.setErrors();
+    if (digits_alone) out.interpolation_.assign(out.interpolation_.size(), 0);
+    return out;
   }
 
   /// The error of the platform's acceleration: the largest within one grid step of t, m/s².
@@ -109,8 +118,14 @@ class SplineLimit {
   double length() const { return conditions_.front().conditioning.length; }
   double largestInterpolation() const { return *std::max_element(interpolation_.begin(), interpolation_.end()); }
   double largestOfDigits() const { return *std::max_element(digits_.begin(), digits_.end()); }
+  std::size_t rows() const { return t_.size(); }
 
  private:
+  void setErrors() {
+    interpolation_ = interpolationErrors(t_, noc_);
+    digits_ = carriedErrors(t_, norms_);
+  }
+
   double splineError(double from, double to) const {
     const auto last = static_cast<std::ptrdiff_t>(interpolation_.size()) - 1;
     const auto first = std::upper_bound(t_.begin(), t_.end(), from) - t_.begin() - 1;
@@ -123,7 +138,8 @@ class SplineLimit {
     return largest;
   }
 
-  std::vector<double> t_, grid_;
+  std::vector<double> t_, grid_, norms_;  ///< the last are of the digits of each row, N·m
+  std::function<Vector6d(double)> noc_;
   std::vector<Conditions> conditions_;
   std::vector<double> interpolation_, digits_;  ///< N·m, one per interval of t_
 };
@@ -149,6 +165,50 @@ const GrowthWindow* hopeless(const ReplayPlan& plan, const std::vector<GrowthWin
   return worst;
 }
 
+/// The plan of a replay under torques of so many rows; without the torques.
+ReplayPlan planOf(const Scenario& scenario, const std::shared_ptr<const SplineLimit>& limit, const Deadline& deadline) {
+  const double duration = scenario.trajectory->duration();
+  ReplayPlan plan;
+  plan.acceleration = [limit](double t) { return (*limit)(t); };
+  plan.deadline = deadline;
+  plan.position_scale = positionScale(limit->conditions());
+  plan.step_rate = std::max(plannedStepRate(duration), 2 * static_cast<double>(limit->rows()) / duration);
+  plan.tolerance = reachableTolerance(scenario, plan.step_rate);
+  plan.max_evaluations = enoughEvaluations(scenario, plan.step_rate);
+  return plan;
+}
+
+/// Returns how many equally spaced rows would do, within a tenth; 0 if the digits are too few for any. It plans the
+/// replay of the NOC's torques at so many rows.
+std::size_t enoughRows(const Scenario& scenario, const SplineLimit& limit, const Amplification& amplification,
+                       double useful, const Deadline& deadline) {
+  constexpr std::size_t most = 20000;
+  const auto wouldDo = [&](std::size_t rows, bool digits_alone = false) {
+    const auto there = std::make_shared<const SplineLimit>(limit.withRows(rows, digits_alone));
+    const ReplayPlan plan = planOf(scenario, there, deadline);
+    // Half of it, since the replay's limit has its own steps' errors, too.
+    return hopeless(plan, planWindows(amplification, plan), useful / 2) == nullptr;
+  };
+  std::size_t enough = 2 * TorqueSpline::least_samples, too_few = TorqueSpline::least_samples - 1;
+  if (!wouldDo(enough, true)) return 0;
+  while (!wouldDo(enough)) {
+    too_few = enough;
+    enough *= 2;
+    if (enough > most) return 0;
+  }
+  while (10 * too_few < 9 * enough && enough - too_few > 1) {
+    const std::size_t middle = (too_few + enough) / 2;
+    (wouldDo(middle) ? enough : too_few) = middle;
+  }
+  return enough;
+}
+
+/// "; 61 equally spaced rows of such digits would do", or what else would.
+std::string remedyOf(std::size_t enough) {
+  if (enough > 0) return fmt::format("; {} equally spaced rows with as many digits would do", enough);
+  return "; more rows would not do: give more digits, or a tolerance of the torques";
+}
+
 std::string splineBasis(const SplineLimit& limit, std::size_t rows, const Units& units) {
   return fmt::format(
       "between the {} samples: interpolation up to {:.3g} {} (the NOC's torques on a quintic spline through the same "
@@ -165,33 +225,29 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   ExternalReplay out;
   out.amplification = std::make_shared<const Amplification>(linearised(scenario, deadline));
   out.not_replayed = missing(torques, duration, units);
-  if (!out.not_replayed.empty()) {
-    out.between = std::numeric_limits<double>::infinity();
-    return out;
-  }
-
   const Amplification& amplification = *out.amplification;
   const auto limit = std::make_shared<const SplineLimit>(scenario, torques, amplification.instants(), deadline);
-  const auto spline = std::make_shared<const TorqueSpline>(torques.file.t, torques.file.torques);
-  const double knot_rate = static_cast<double>(torques.file.rows()) / duration;
-  ReplayPlan plan;
-  plan.torques = [spline](double t) { return (*spline)(t); };
-  plan.acceleration = [limit](double t) { return (*limit)(t); };
-  plan.deadline = deadline;
-  plan.position_scale = positionScale(limit->conditions());
-  plan.step_rate = std::max(plannedStepRate(duration), 2 * knot_rate);
-  plan.tolerance = reachableTolerance(scenario, plan.step_rate);
-  plan.max_evaluations = enoughEvaluations(scenario, plan.step_rate);
-  const std::vector<GrowthWindow> windows = planWindows(amplification, plan);
   const double useful = useful_replay_limit * limit->length();
+  if (!out.not_replayed.empty()) {
+    out.between = std::numeric_limits<double>::infinity();
+    out.enough_rows = enoughRows(scenario, *limit, amplification, useful, deadline);
+    out.not_replayed += remedyOf(out.enough_rows);
+    return out;
+  }
+  const auto spline = std::make_shared<const TorqueSpline>(torques.file.t, torques.file.torques);
+  ReplayPlan plan = planOf(scenario, limit, deadline);
+  plan.torques = [spline](double t) { return (*spline)(t); };
+  const std::vector<GrowthWindow> windows = planWindows(amplification, plan);
   const std::string basis = splineBasis(*limit, torques.file.rows(), units);
   if (const GrowthWindow* window = hopeless(plan, windows, useful)) {
     const double bound = plannedBound(plan, *window);
     out.not_replayed = fmt::format(
         "too few samples or digits for a replay: from t = {:.6g} s what the file leaves open may move P by {:.3g} m "
-        "within {:.3g} s, and a verdict needs {:.3g} m; give more digits or rows, or a tolerance of the torques",
+        "within {:.3g} s, and a verdict needs {:.3g} m",
         window->start() * units.time, bound * units.length, (window->end() - window->start()) * units.time,
         useful * units.length);
+    out.enough_rows = enoughRows(scenario, *limit, amplification, useful, deadline);
+    out.not_replayed += remedyOf(out.enough_rows);
     out.bound = bound;
     out.between = limit->largestInterpolation();
     out.spline = basis;

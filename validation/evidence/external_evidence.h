@@ -45,6 +45,7 @@ struct ExternalReplay {
   double between = 0;
   std::string not_replayed;                                 ///< why the replay cannot be judged, else empty
   double bound = std::numeric_limits<double>::quiet_NaN();  ///< the limit, m, if it prevents the replay
+  std::size_t enough_rows = 0;  ///< equally spaced ones of as many digits that would do; 0 if none do or none lack
 };
 
 /// Replays in windows. Their limits include rounding, integration, the interpolation error and the digits of the file.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +39,13 @@ std::vector<std::pair<std::string, std::string>> partProvenance();
 /// A result without checks. Its provenance has scenario, subject, build, settings and what the user asked for.
 ValidationResult emptyResult(const Scenario& scenario, const JudgedSubject& subject);
 ValidationResult emptyResult(const MechanismScenario& scenario, const JudgedSubject& subject);
+
+/// How large wrong efforts are, and which other idealisation of the legs makes them right; evaluated with the NOC and
+/// Simbody. `scenario` and `samples` are in the units of `natural`, `given` in SI. Returns nullopt if no effort is
+/// beyond its limit. Needs the result's deviation and cause.
+std::optional<FailureSize> failureSize(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
+                                       const Scenario& given, const FrameChange& natural,
+                                       const ValidationResult& result);
 
 /// Commanded and simulated motion, joint motion, efforts and errors at the instants of `samples`, with the columns of
 /// docs/csv.md. It has only joints that the legs have, and one effort per motor.

@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -171,6 +172,11 @@ std::vector<MechanismInvariance> askInvariances(const MechanismScenario& scenari
 
 /// The checks of the catalogue that the evidence holds.
 std::vector<Check> judgeMechanism(const MechanismEvidence& evidence, const MechanismSubject& subject);
+
+/// How large wrong efforts are, and what the scenario can leave out so that they are right by all formulations. Returns
+/// nullopt if no effort is beyond its limit. Needs the result's deviation and cause.
+std::optional<FailureSize> failureSize(const MechanismEvidence& evidence,
+                                       const std::vector<MakeMechanismEngine>& makers, const ValidationResult& result);
 
 /// Returns the machine turned, moved, in other units, relabelled or heavier; also what turns its efforts back.
 struct ChangedMechanism {

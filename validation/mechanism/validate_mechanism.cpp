@@ -36,6 +36,7 @@ void requireMotors(const MechanismScenario& scenario, const LoopFreedoms& found)
     what += found.fighting.empty()
                 ? "; the motors fight each other"
                 : fmt::format("; these motors fight each other or the loops: {}", listOf(found.fighting));
+  if (found.freedoms == 0) what += "; nothing can move: `base` or `close` of [mechanism] may hold a link of a loop";
   throw ScenarioError(what +
                       ". Expected as many motors as freedoms: see `motors` of [mechanism], and which joints the "
                       "model's closures fix");
@@ -266,9 +267,10 @@ ValidationResult validateMechanism(const MechanismScenario& scenario, const Mech
   judgeByUser(scenario.acceptance, result);
   if (!evidence.samples.empty()) addSeries(evidence, result);
   addFacts(along, subject, evidence, result);
-  if (result.verdict == Verdict::fail && !subject.isNoc() && !onlyOddEngineFails(result) &&
-      partMechanismCause() != nullptr)
-    partMechanismCause()(scenario, evidence, result);
+  if (result.verdict == Verdict::fail && !subject.isNoc() && !onlyOddEngineFails(result)) {
+    if (partMechanismCause() != nullptr) partMechanismCause()(scenario, evidence, result);
+    if (evidence.out_of_time.empty()) result.size = failureSize(evidence, makers, result);
+  }
   sayEfforts(result);
   return result;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/judged_subject.h"
+#include "validation/verdict/failure_size.h"
 
 namespace ursula {
 
@@ -45,6 +46,7 @@ struct NamedCause {
   std::optional<double> from_s = {}, to_s = {};                 ///< the interval in which the efforts are wrong
   double explained = std::numeric_limits<double>::quiet_NaN();  ///< share of the deviation's square; NaN: unknown
   std::string joint = {};                                       ///< of a mechanism, by the file's name
+  std::vector<int> signs = {};  ///< of order: 1, or −1 for a column with the wrong sign; empty if none has
 };
 
 /// A mistake that leaves every effort of a scenario within the limits of the verdict.
@@ -76,6 +78,11 @@ enum class CauseClaim {
 struct CauseWords {
   std::string off, cause;
   CauseClaim claim = CauseClaim::likely;
+};
+
+/// Equally spaced instants that a file of efforts needs so that its replay can be judged.
+struct NeededRows {
+  std::size_t rows = 0, given = 0;
 };
 
 struct MechanismPicture;
@@ -324,6 +331,8 @@ struct ValidationResult {
   std::optional<NamedCause> cause;              ///< of wrong efforts; nullopt unless exactly one explains everything
   std::vector<NamedCause> causes;               ///< others that explain the deviation equally well
   std::vector<NamedCause> causes_together;      ///< two or three that explain it only together; `cause` is the first
+  std::optional<FailureSize> size;              ///< of wrong efforts; nullopt if none is, or the subject is the NOC
+  std::optional<NeededRows> needed;             ///< nullopt unless more rows of the same digits would do
   std::vector<TermError> terms;                 ///< of a solver that was asked apart; empty for efforts from a file
   std::optional<std::vector<BlindSpot>> blind;  ///< what the scenario cannot show; nullopt if it was not asked
   CauseWords cause_words;                       ///< empty if no effort is wrong

@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "parts/engines/dart/dart_machine_internal.h"
+#include "parts/engines/dart/silence.h"
 
 namespace ursula::dart_engine {
 namespace {
@@ -72,6 +73,7 @@ Eigen::Isometry3d placeOf(const Matrix3d& R, const Vector3d& at) {
 }  // namespace
 
 DartMachine::DartMachine(const Manipulator& from) : manipulator(from), skeleton(dd::Skeleton::create("machine")) {
+  const Silence silence;
   skeleton->setGravity(from.gravity());
   for (int i = 0; i < from.legCount(); ++i) addLeg(from.leg(i), std::to_string(i));
   dd::BodyNode::AspectProperties body("platform");
@@ -178,6 +180,7 @@ void DartMachine::chooseUnit() {
   }
   if (!std::isfinite(unit_) || !(unit_ > 0)) throw std::runtime_error("DART moves no legs without mass");
   for (dd::BodyNode* body : skeleton->getBodyNodes()) {
+    const Silence silence;
     const dd::Inertia& inertia = body->getInertia();
     body->setInertia(
         dd::Inertia(unit_ * inertia.getMass(), inertia.getLocalCOM(), Matrix3d(unit_ * inertia.getMoment())));

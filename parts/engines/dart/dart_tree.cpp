@@ -9,11 +9,11 @@
 #include <dart/dynamics/RevoluteJoint.hpp>
 #include <dart/dynamics/Skeleton.hpp>
 #include <dart/dynamics/UniversalJoint.hpp>
-#include <iostream>
 #include <map>
 
 #include "parts/engines/closed_mechanism.h"
 #include "parts/engines/dart/dart_tree_internal.h"
+#include "parts/engines/dart/silence.h"
 #include "parts/engines/weld_tree.h"
 
 namespace ursula {
@@ -29,18 +29,6 @@ const Matrix3d& turned() {
   static const Matrix3d out = Eigen::AngleAxisd(1, Vector3d::UnitX()).toRotationMatrix();
   return out;
 }
-
-/// DART warns of each body without mass, which is meant.
-class Silence {
- public:
-  Silence() : before_(std::cerr.rdbuf(nullptr)) {}
-  ~Silence() { std::cerr.rdbuf(before_); }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-
- private:
-  std::streambuf* before_;
-};
 
 class DartTree : public SpeedsOfWelds {
  public:
