@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "nocsolver/noc/noc_joints_impl.h"
+#include "nocsolver/noc/noc_impl.h"
 #include "parts/wrong_formulas/wrong_legs_impl.h"
 #include "parts/wrong_formulas/wrong_noc.h"
 

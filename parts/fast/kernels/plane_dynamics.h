@@ -76,7 +76,7 @@ void eachCoordinate(const F& f) {
   f(std::integral_constant<std::size_t, 2>{});
 }
 
-/// Forces against viscous and smoothed Coulomb friction of a leg's joints. Unlike frictionForce of noc_impl.h, this has
+/// Forces against viscous and smoothed Coulomb friction of a leg's joints. Unlike frictionForce of the NOC, this has
 /// no branch on the rate, because a pack cannot branch.
 template <class S>
 Vector3<S> friction(const PlaneModel<S>& model, const PlaneLeg<S>& leg) {

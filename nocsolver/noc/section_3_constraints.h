@@ -1,11 +1,10 @@
 #pragma once
 
-// The quantities that the complement eliminates: the velocity constraints of (33) and the joint reactions. Sources that
-// instantiate Noc include it.
+// Section 3 of the paper: what the complement eliminates, the velocity constraints of (33) and the joint reactions.
 
 #include <Eigen/Geometry>
 
-#include "nocsolver/noc/noc_impl.h"
+#include "nocsolver/noc/section_3_dynamics.h"
 
 namespace ursula {
 namespace legs {

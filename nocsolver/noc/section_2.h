@@ -1,6 +1,6 @@
 #pragma once
 
-// Section 2 of the paper, for legs of all kinds; included by noc_impl.h.
+// Section 2 of the paper, kinematics (1)–(26), for legs of all kinds.
 
 #include <cmath>
 
