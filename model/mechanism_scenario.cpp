@@ -124,8 +124,7 @@ MotorSamples readMotorSamples(const std::filesystem::path& file, const Mechanism
   out.t = read.at("t_s");
   for (std::size_t k = 0; k < mechanism.motorCount(); ++k)
     if (const auto* column = columnOf(read, mechanism, k, "q"))
-      out.quantum =
-          std::max(out.quantum, halfDigit(read, read.names[static_cast<std::size_t>(column - read.columns.data())]));
+      out.quantum = std::max(out.quantum, halfDigit(read, read.names[column - read.columns.data()]));
   try {
     out.trajectory = makeMotorSamples(out.t, motorColumns(read, mechanism, "q", true), rates, accelerations);
     return out;
@@ -232,9 +231,9 @@ Eigen::MatrixXd motorColumns(const CsvTable& table, const Mechanism& mechanism, 
   Eigen::MatrixXd out;
   const auto n = static_cast<Eigen::Index>(mechanism.motorCount());
   for (Eigen::Index k = 0; k < n; ++k) {
-    const std::vector<double>* column = columnOf(table, mechanism, static_cast<std::size_t>(k), of);
+    const std::vector<double>* column = columnOf(table, mechanism, k, of);
     if (column == nullptr && !required && k == 0) return out;
-    if (column == nullptr) column = &table.at(motorColumn(mechanism, static_cast<std::size_t>(k), of));
+    if (column == nullptr) column = &table.at(motorColumn(mechanism, k, of));
     if (k == 0) out.resize(static_cast<Eigen::Index>(column->size()), n);
     out.col(k) = Eigen::Map<const Eigen::VectorXd>(column->data(), static_cast<Eigen::Index>(column->size()));
   }

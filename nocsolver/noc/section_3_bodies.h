@@ -28,7 +28,7 @@ Vector3<S> velocityOf(const Vector6<S>& twist, const Vector3<S>& arm) {
 template <class S>
 LinkMotions<S> Noc<S>::onLines(int i, const LegState<S>& at, const Vector3<S>& rate, const Vector3<S>& acceleration,
                                bool with_rates) const {
-  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  const LegModel<S>& leg = machine_.legs[i];
   return legs::withLeg(leg.kind, [&](auto kind) {
     return with_rates ? kind.links(leg, at, rate, acceleration)
                       : kind.template links<false>(leg, at, rate, acceleration);
@@ -39,7 +39,7 @@ template <class S>
 LinkMotions<S> Noc<S>::links(int i, const LegState<S>& at, const Vector3<S>& rate, const Vector3<S>& acceleration,
                              bool with_rates) const {
   LinkMotions<S> out = onLines(i, at, rate, acceleration, with_rates);
-  if (machine_.legs[legs::at(i)].off_line) addOffLine(i, at, out);
+  if (machine_.legs[i].off_line) addOffLine(i, at, out);
   return out;
 }
 
@@ -47,7 +47,7 @@ LinkMotions<S> Noc<S>::links(int i, const LegState<S>& at, const Vector3<S>& rat
 /// `links` may hold ω of a column of T. The frame moves as `at` does.
 template <class S>
 void Noc<S>::addOffLine(int i, const LegState<S>& at, LinkMotions<S>& links) const {
-  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  const LegModel<S>& leg = machine_.legs[i];
   const LinkMotions<S> now = onLines(i, at, at.rate, Vector3<S>(Vector3<S>::Zero()), false);
   const auto add = [](const Vector3<S>& off, const Vector3<S>& omega_now, LinkMotion<S>& link) {
     link.c_dot += link.omega.cross(off);
@@ -73,8 +73,8 @@ template <class S>
 void Noc<S>::bodyMotions(const Motion<S>& motion, const NocWorkspace<S>& work, BodyMotions<S>& bodies) const {
   bodies = BodyMotions<S>();
   for (int i = 0; i < machine_.legs_in_all; ++i) {
-    const LegModel<S>& leg = machine_.legs[legs::at(i)];
-    const LegState<S>& at = work.legs[legs::at(i)];
+    const LegModel<S>& leg = machine_.legs[i];
+    const LegState<S>& at = work.legs[i];
     const LinkMotions<S> now = links(i, at, at.rate, at.acceleration, true);
     const auto set = [&](BodyMotion<S>& body, const Vector3<S>& c, const Matrix3<S>& frame, const LinkMotion<S>& link) {
       body.c = leg.a + c;  // (paper, eqs. 39a, 39b)
@@ -82,11 +82,11 @@ void Noc<S>::bodyMotions(const Motion<S>& motion, const NocWorkspace<S>& work, B
       body.twist << link.omega, link.c_dot;
       body.twist_rate << link.omega_dot, link.c_ddot;
     };
-    set(bodies[legs::at(i)], at.O_1 + at.arm_1, at.R_1, now.proximal);
-    set(bodies[legs::at(leg_count + i)], at.O_2 + at.arm_2, at.R_2, now.distal);
+    set(bodies[i], at.O_1 + at.arm_1, at.R_1, now.proximal);
+    set(bodies[leg_count + i], at.O_2 + at.arm_2, at.R_2, now.distal);
     if (!leg.off_line) continue;
-    bodies[legs::at(i)].c += at.R_1 * leg.off_1;
-    bodies[legs::at(leg_count + i)].c += at.R_2 * leg.off_2;
+    bodies[i].c += at.R_1 * leg.off_1;
+    bodies[leg_count + i].c += at.R_2 * leg.off_2;
   }
   const Vector3<S> arm = platformArm(motion), across = motion.omega.cross(arm);
   BodyMotion<S>& body = bodies[legs::platform];

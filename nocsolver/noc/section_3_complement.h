@@ -35,10 +35,10 @@ typename Noc<S>::Rates Noc<S>::ratesForTwists(int i, const LegState<S>& at, cons
 /// Rates of leg i's joints for q̇ = e_m in column m: δ_m of (48) for the leg.
 template <class S>
 typename Noc<S>::Rates Noc<S>::columnRates(int i, const LegState<S>& at, const Matrix6<S>& T_P) const {
-  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  const LegModel<S>& leg = machine_.legs[i];
   Rates out = ratesForTwists(i, at, T_P);
   for (int j = 0; j < 3; ++j) {
-    const int motor = leg.motor[legs::at(j)];
+    const int motor = leg.motor[j];
     if (motor >= 0) out.row(j) = Vector6<S>::Unit(motor).transpose();  // (paper, eq. 48)
   }
   return out;
@@ -48,14 +48,14 @@ typename Noc<S>::Rates Noc<S>::columnRates(int i, const LegState<S>& at, const M
 template <class S>
 typename Noc<S>::Rates Noc<S>::columnAccelerations(const Motion<S>& motion, int i, const NocWorkspace<S>& work,
                                                    const Rates& rates) const {
-  const LegModel<S>& leg = machine_.legs[legs::at(i)];
-  const LegState<S>& at = work.legs[legs::at(i)];
+  const LegModel<S>& leg = machine_.legs[i];
+  const LegState<S>& at = work.legs[i];
   Rates out;
   for (int m = 0; m < motor_count; ++m)
     out.col(m) = jointAccelerations(i, at, Vector3<S>(rates.col(m)), legs::velocityOf<S>(work.T_P.col(m), at.Qb),
                                     columnAcceleration(motion, work, m, at.Qb));
   for (int j = 0; j < 3; ++j)
-    if (leg.motor[legs::at(j)] >= 0) out.row(j).setZero();
+    if (leg.motor[j] >= 0) out.row(j).setZero();
   return out;
 }
 
@@ -98,7 +98,7 @@ void Noc<S>::shape(const Motion<S>& motion, NocWorkspace<S>& work, bool with_rat
     work.T_rate.setZero();
   }
   for (int i = 0; i < machine_.legs_in_all; ++i) {
-    const LegState<S>& at = work.legs[legs::at(i)];
+    const LegState<S>& at = work.legs[i];
     const Rates rates = columnRates(i, at, work.T_P);
     const UnitTwists unit = unitTwists(i, at, with_rate);
     legs::block(work.T, i) = unit.first * rates;

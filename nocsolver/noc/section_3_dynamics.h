@@ -35,7 +35,7 @@ template <class S>
 S Noc<S>::massOf(int body) const {
   if (body == legs::platform) return machine_.mass;
   if (body % leg_count >= machine_.legs_in_all) return S(0);
-  const LegModel<S>& leg = machine_.legs[legs::at(body % leg_count)];
+  const LegModel<S>& leg = machine_.legs[body % leg_count];
   if (body < leg_count) return leg.mass_1;
   return leg.mass_2;
 }
@@ -49,10 +49,10 @@ BodyTensors<S> Noc<S>::tensors(const NocWorkspace<S>& work) const {
     return Matrix3<S>(frame * I * frame.transpose());
   };
   for (int i = 0; i < machine_.legs_in_all; ++i) {
-    const LegModel<S>& leg = machine_.legs[legs::at(i)];
-    const LegState<S>& at = work.legs[legs::at(i)];
-    out[legs::at(i)] = turned(at.R_1, leg.I_1);              // (paper, eq. 46a)
-    out[legs::at(leg_count + i)] = turned(at.R_2, leg.I_2);  // (paper, eq. 46b)
+    const LegModel<S>& leg = machine_.legs[i];
+    const LegState<S>& at = work.legs[i];
+    out[i] = turned(at.R_1, leg.I_1);              // (paper, eq. 46a)
+    out[leg_count + i] = turned(at.R_2, leg.I_2);  // (paper, eq. 46b)
   }
   out.back() = turned(work.Q, machine_.I_M);  // (paper, eq. 46c)
   return out;
@@ -61,20 +61,20 @@ BodyTensors<S> Noc<S>::tensors(const NocWorkspace<S>& work) const {
 /// Mᵢ x of (29), (30b).
 template <class S>
 Vector6<S> Noc<S>::M(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const {
-  return timesM(work.I_B[legs::at(body)], massOf(body), x);  // (paper, eq. 29)
+  return timesM(work.I_B[body], massOf(body), x);  // (paper, eq. 29)
 }
 
 /// Wᵢ x of (29), (30b).
 template <class S>
 Vector6<S> Noc<S>::W(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const {
-  return timesW(Vector3<S>(work.bodies[legs::at(body)].twist.template head<3>()), x);  // (paper, eq. 29)
+  return timesW(Vector3<S>(work.bodies[body].twist.template head<3>()), x);  // (paper, eq. 29)
 }
 
 template <class S>
 BodyVector<S> Noc<S>::inertiaWrench(const NocWorkspace<S>& work) const {
   BodyVector<S> w_n = BodyVector<S>::Zero();
   for (int b = 0; b < body_count; ++b) {
-    const BodyMotion<S>& body = work.bodies[legs::at(b)];
+    const BodyMotion<S>& body = work.bodies[b];
     legs::block(w_n, b) = -M(b, work, body.twist_rate) - W(b, work, M(b, work, body.twist));  // (paper, eqs. 28, 38)
   }
   return w_n;
@@ -91,17 +91,17 @@ BodyVector<S> Noc<S>::gravityWrench() const {
 /// Adds an effort's wrench at joint j of leg i to the outboard link; the inboard link, or the base, takes the reaction.
 template <class S>
 void Noc<S>::addJointWrench(const NocWorkspace<S>& work, int i, int j, const S& effort, BodyVector<S>& w) const {
-  const LegModel<S>& leg = machine_.legs[legs::at(i)];
-  const LegState<S>& at = work.legs[legs::at(i)];
+  const LegModel<S>& leg = machine_.legs[i];
+  const LegState<S>& at = work.legs[i];
   const LegKindRow& row = rowOf(leg.kind);
-  const Vector3<S> along = effort * at.axis[legs::at(j)];
+  const Vector3<S> along = effort * at.axis[j];
   const auto add = [&](int body, const Vector3<S>& on) {
     auto to = legs::block(w, body);
-    if (!slides(row.coordinates[legs::at(j)])) {
+    if (!slides(row.coordinates[j])) {
       to.template head<3>() += on;
       return;
     }
-    to.template head<3>() += (leg.a + at.O_2 - work.bodies[legs::at(body)].c).cross(on);
+    to.template head<3>() += (leg.a + at.O_2 - work.bodies[body].c).cross(on);
     to.template tail<3>() += on;
   };
   const bool on_proximal = j < row.joints_of_proximal;
@@ -115,10 +115,8 @@ BodyVector<S> Noc<S>::dissipativeWrench(const NocWorkspace<S>& work) const {
   BodyVector<S> w_d = BodyVector<S>::Zero();
   for (int i = 0; i < machine_.legs_in_all; ++i)
     for (int j = 0; j < 3; ++j) {
-      const LegModel<S>& leg = machine_.legs[legs::at(i)];
-      const std::size_t k = legs::at(j);
-      const S resistance =
-          legs::frictionForce(leg.viscous[k], leg.coulomb[k], leg.speed[k], work.legs[legs::at(i)].rate(j));
+      const LegModel<S>& leg = machine_.legs[i];
+      const S resistance = legs::frictionForce(leg.viscous[j], leg.coulomb[j], leg.speed[j], work.legs[i].rate(j));
       if (resistance != S(0)) addJointWrench(work, i, j, S(-resistance), w_d);
     }
   return w_d;
@@ -137,7 +135,7 @@ template <class S>
 BodyVector<S> Noc<S>::actuatorWrench(const NocWorkspace<S>& work, const Vector6<S>& efforts) const {
   BodyVector<S> w_a = BodyVector<S>::Zero();
   for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = machine_.motors[legs::at(m)];
+    const Motor& motor = machine_.motors[m];
     addJointWrench(work, motor.leg, motor.joint, efforts(m), w_a);  // (paper, eq. 35)
   }
   return w_a;
@@ -158,7 +156,7 @@ void Noc<S>::setBodies(const Motion<S>& motion, NocWorkspace<S>& work) const {
 template <class S>
 bool Noc<S>::hasRotors() const {
   for (int i = 0; i < machine_.legs_in_all; ++i)
-    if (machine_.legs[legs::at(i)].has_rotor) return true;
+    if (machine_.legs[i].has_rotor) return true;
   return false;
 }
 
@@ -166,8 +164,8 @@ template <class S>
 Vector6<S> Noc<S>::rotors() const {
   Vector6<S> j;
   for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = machine_.motors[legs::at(m)];
-    j(m) = machine_.legs[legs::at(motor.leg)].rotor[legs::at(motor.joint)];
+    const Motor& motor = machine_.motors[m];
+    j(m) = machine_.legs[motor.leg].rotor[motor.joint];
   }
   return j;
 }
@@ -177,8 +175,8 @@ template <class S>
 Vector6<S> Noc<S>::rotorEfforts(const NocWorkspace<S>& work) const {
   Vector6<S> out = rotors();
   for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = machine_.motors[legs::at(m)];
-    out(m) *= work.legs[legs::at(motor.leg)].acceleration(motor.joint);
+    const Motor& motor = machine_.motors[m];
+    out(m) *= work.legs[motor.leg].acceleration(motor.joint);
   }
   return out;
 }
@@ -203,8 +201,7 @@ template <class S>
 TwistShaping<S> Noc<S>::massTimes(const BodyTensors<S>& tensors, const TwistShaping<S>& X) const {
   TwistShaping<S> out;
   for (int b = 0; b < body_count; ++b) {
-    legs::block(out, b).template topRows<3>().noalias() =
-        tensors[legs::at(b)] * legs::block(X, b).template topRows<3>();
+    legs::block(out, b).template topRows<3>().noalias() = tensors[b] * legs::block(X, b).template topRows<3>();
     legs::block(out, b).template bottomRows<3>() = massOf(b) * legs::block(X, b).template bottomRows<3>();
   }
   return out;
@@ -262,10 +259,10 @@ Matrix6<S> Noc<S>::massMatrixAtP(const Motion<S>& motion, const NocWorkspace<S>&
   Matrix6<S> J;  // q̇ of the motors for unit twists
   const Matrix6<S> unit = Matrix6<S>::Identity();
   for (int i = 0; i < machine_.legs_in_all; ++i) {
-    const LegState<S>& at = work.legs[legs::at(i)];
+    const LegState<S>& at = work.legs[i];
     const Rates rates = ratesForTwists(i, at, unit);
     for (int j = 0; j < 3; ++j)
-      if (const int motor = machine_.legs[legs::at(i)].motor[legs::at(j)]; motor >= 0) J.row(motor) = rates.row(j);
+      if (const int motor = machine_.legs[i].motor[j]; motor >= 0) J.row(motor) = rates.row(j);
     const UnitTwists of_legs = unitTwists(i, at, false);
     legs::block(T, i) = of_legs.first * rates;
     legs::block(T, leg_count + i) = of_legs.second * rates;
