@@ -21,7 +21,7 @@ class TrackTable {
   std::size_t add(const Picture::Track& points) {
     Json numbers = track(points);
     const auto at = std::find(tracks_.begin(), tracks_.end(), numbers);
-    const auto index = static_cast<std::size_t>(at - tracks_.begin());
+    const std::size_t index = at - tracks_.begin();
     if (at == tracks_.end()) tracks_.push_back(std::move(numbers));
     return index;
   }
@@ -99,7 +99,7 @@ Json weakJson(const Picture& picture) {
 nlohmann::ordered_json machineJson(const Picture& picture, const ValidationResult& result) {
   Json wrong = Json::array();  // legs, 0-based
   for (const MotorDeviation& motor : motorsOff(result))
-    if (!motor.right) wrong.push_back(motorsOf(result)[static_cast<std::size_t>(motor.motor)].leg);
+    if (!motor.right) wrong.push_back(motorsOf(result)[motor.motor].leg);
   const AtInstants at(result.timeseries, picture.t);
   std::vector<std::string> efforts;
   for (const Indexed& effort : indexed(result.timeseries, "tau"))

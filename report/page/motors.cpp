@@ -96,7 +96,7 @@ std::string effortText(double value, const MotorDeviation& motor) {
 }
 
 HtmlValue motorRow(const MotorDeviation& motor, const std::vector<std::string>& names) {
-  return {{"motor", motorName(names, static_cast<std::size_t>(motor.motor))},
+  return {{"motor", motorName(names, motor.motor)},
           {"named", !names.empty()},
           {"given", effortText(motor.given, motor)},
           {"expected", effortText(motor.expected, motor)},

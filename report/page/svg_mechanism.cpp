@@ -90,7 +90,7 @@ std::string motorsNamed(const MechanismPicture& picture, const std::vector<bool>
   std::string out;
   for (const MechanismPicture::Joint& joint : picture.joints) {
     if (joint.motor < 0) continue;
-    const auto k = static_cast<std::size_t>(joint.motor);
+    const std::size_t k = joint.motor;
     const bool is_wrong = k < wrong.size() && wrong[k];
     const std::string text = (is_wrong ? "✗ " : "") + joint.name;
     Eigen::Vector2d at = on.at(placed(picture.bodies[joint.child], joint.at_child, 0)) + Eigen::Vector2d(0, 21);
@@ -133,7 +133,7 @@ double scaleOf(const MechanismPicture& picture, const Vector3d& forward, const D
 std::string svgMachine(const MechanismPicture& picture, const std::vector<MotorDeviation>& motors) {
   std::vector<bool> wrong(picture.motors.size(), false);
   for (const MotorDeviation& motor : motors)
-    if (const auto k = static_cast<std::size_t>(motor.motor); k < wrong.size()) wrong[k] = !motor.right;
+    if (const std::size_t k = motor.motor; k < wrong.size()) wrong[k] = !motor.right;
   const DrawingArea area{0, 0, 640, 420};
   return fmt::format(
       "<svg class=\"machine\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "

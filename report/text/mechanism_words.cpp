@@ -99,8 +99,7 @@ std::string worstMotor(const ValidationResult& result) {
     return !std::isnan(a.largest) && (a.share < b.share || std::isnan(b.largest));
   };
   const MotorDeviation& worst = *std::max_element(motors.begin(), motors.end(), isLess);
-  return fmt::format("{} was given {} where {} is expected, {}at t = {:.4g} s",
-                     motorName(names, static_cast<std::size_t>(worst.motor)),
+  return fmt::format("{} was given {} where {} is expected, {}at t = {:.4g} s", motorName(names, worst.motor),
                      toldApart(worst.given, worst.expected, worst.unit),
                      toldApart(worst.expected, worst.given, worst.unit), offText(worst), worst.t);
 }
