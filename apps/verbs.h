@@ -49,7 +49,7 @@ auto alongMotion(const Scenario& scenario, Run&& run) {
   try {
     return run();
   } catch (const PoseError& refusal) {
-    throw unmade(scenario, refusal);
+    throw motionRefusal(scenario, refusal);
   }
 }
 

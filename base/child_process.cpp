@@ -194,13 +194,13 @@ std::string answerOf(const std::vector<std::string>& words, std::string_view inp
     if (ends[1].revents != 0) {
       const ssize_t count = ::write(child.to(), input.data(), input.size());
       if (count < 0 && errno != EINTR && errno != EAGAIN) input = {};  // it ended; its status says why
-      input.remove_prefix(count > 0 ? static_cast<std::size_t>(count) : 0);
+      input.remove_prefix(count > 0 ? count : 0);
     }
     if (ends[0].revents == 0) continue;
     const ssize_t count = ::read(child.from(), some.data(), some.size());
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;
-    out.append(some.data(), static_cast<std::size_t>(count));
+    out.append(some.data(), count);
   }
   for (; !child.hasEnded(); ::poll(nullptr, 0, 1)) deadline.require();
   child.wait();

@@ -116,7 +116,7 @@ bool areSiblings(const std::string& a, const std::string& b) {
 
 const std::vector<double>* CsvTable::find(const std::string& name) const {
   const auto found = std::find(names.begin(), names.end(), name);
-  return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];
+  return found == names.end() ? nullptr : &columns[found - names.begin()];
 }
 
 const std::vector<double>& CsvTable::at(const std::string& name) const {
@@ -147,7 +147,7 @@ CsvTable parseCsv(const std::string& text, const std::filesystem::path& file, co
     fail(file, std::max(1, options.dialect.header),
          fmt::format("more than {0} columns, expected at most {0}", most_csv_columns));
   const std::vector<std::size_t> wanted = readHeader(names, options, table);
-  for (auto i = static_cast<std::size_t>(options.dialect.header); i < lines.size(); ++i)
+  for (std::size_t i = options.dialect.header; i < lines.size(); ++i)
     if (!isPassedOver(lines[i], options.dialect)) readRow(lines[i], static_cast<int>(i) + 1, wanted, options, table);
   if (table.lines.empty()) fail(file, 1, "no rows, expected at least one below the header");
   return table;

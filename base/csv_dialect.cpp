@@ -81,7 +81,7 @@ Head headOf(const std::vector<std::string_view>& lines) {
     }
   }
   if (head.header == 0) head.header = commented;
-  if (head.header > 0) head.names = withoutMark(lines[static_cast<std::size_t>(head.header) - 1]);
+  if (head.header > 0) head.names = withoutMark(lines[head.header - 1]);
   return head;
 }
 

@@ -13,7 +13,7 @@ namespace ursula {
 inline double halfDigit(const CsvTable& table, const std::string& name) {
   const auto found = std::find(table.names.begin(), table.names.end(), name);
   if (found == table.names.end() || table.rows() == 0) return 0;
-  std::vector<int> places = table.last_places[static_cast<std::size_t>(found - table.names.begin())];
+  std::vector<int> places = table.last_places[found - table.names.begin()];
   const auto middle = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
   std::nth_element(places.begin(), middle, places.end());
   return 0.5 * std::pow(10.0, *middle);

@@ -153,7 +153,7 @@ void differentiateBySix(const std::vector<CurvePoint<S, D>>& knots, std::size_t 
   Eigen::Matrix<S, 6, 6> powers;
   Eigen::Matrix<S, 6, D> values;
   for (int i = 0; i < 6; ++i) {
-    const CurvePoint<S, D>& other = knots[first + static_cast<std::size_t>(i)];
+    const CurvePoint<S, D>& other = knots[first + i];
     powers(i, 0) = S(1);
     for (int k = 1; k < 6; ++k) powers(i, k) = powers(i, k - 1) * (other.t - knot.t) / scale;
     values.row(i) = other.value.transpose();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -13,6 +14,14 @@ constexpr int motor_count = 6;
 /// Two links per leg and the platform, ordered as in (30a): proximal links, distal links, platform. The places of legs
 /// that a machine lacks stay empty.
 constexpr int body_count = 2 * leg_count + 1;
+
+/// One value for each leg, motor or body, by its number.
+template <class T>
+using PerLeg = std::array<T, leg_count>;
+template <class T>
+using PerMotor = std::array<T, motor_count>;
+template <class T>
+using PerBody = std::array<T, body_count>;
 
 template <class S>
 using Vector3 = Eigen::Matrix<S, 3, 1>;

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
-#include <future>
 #include <mutex>
 #include <new>
 #include <system_error>
@@ -44,22 +43,10 @@ void inParallel(int jobs, int count, const Task& task) {
         if (!failure) failure = std::current_exception();
       }
   };
-  std::vector<std::thread> threads =
-      startThreads(static_cast<std::size_t>(std::max(std::min(jobs, count) - 1, 0)), work);
+  std::vector<std::thread> threads = startThreads(std::max(std::min(jobs, count) - 1, 0), work);
   work();
   for (std::thread& thread : threads) thread.join();
   if (failure) std::rethrow_exception(failure);
-}
-
-/// Returns how many of `count` threads the system gives at once. Some libraries abort if it gives fewer than they ask
-/// for.
-inline std::size_t threadsThatStart(std::size_t count) {
-  std::promise<void> all;
-  const std::shared_future<void> asked = all.get_future().share();
-  std::vector<std::thread> threads = startThreads(count, [asked] { asked.wait(); });
-  all.set_value();
-  for (std::thread& thread : threads) thread.join();
-  return threads.size();
 }
 
 }  // namespace ursula

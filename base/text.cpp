@@ -13,7 +13,7 @@ LeadingNumber leadingNumber(std::string_view text) {
   const char* const begin = text.data() + plus;
   LeadingNumber out;
   const auto [end, error] = std::from_chars(begin, text.data() + text.size(), out.value);
-  if (error == std::errc()) out.length = plus + static_cast<std::size_t>(end - begin);
+  if (error == std::errc()) out.length = plus + (end - begin);
   return out;
 }
 

@@ -23,8 +23,7 @@ void refuseZeroByte(const std::string& text, std::size_t from) {
   if (at == std::string::npos) return;
   const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
   const std::size_t before = text.rfind('\n', at);
-  throw TextRefusal("a zero byte, expected text", static_cast<std::size_t>(line),
-                    before == std::string::npos ? at + 1 : at - before);
+  throw TextRefusal("a zero byte, expected text", line, before == std::string::npos ? at + 1 : at - before);
 }
 
 std::string readAll(std::FILE* in, const TextBounds& bounds) {

@@ -91,7 +91,7 @@ std::string contractName(ColumnQuantity quantity, int k, const Motors& motors) {
     case ColumnQuantity::time:
       return "t_s";
     case ColumnQuantity::driven:
-      return drivenName(motors[static_cast<std::size_t>(k)]);
+      return drivenName(motors[k]);
     case ColumnQuantity::position:
       return of("p_{}_m", "xyz");
     case ColumnQuantity::quaternion:

@@ -83,7 +83,7 @@ class Finder {
     const auto& cells = dialect_.header_cells;
     const auto found = std::find(cells.begin(), cells.end(), column);
     if (found == cells.end()) fail(fmt::format("no column '{}'{}", shown(column), didYouMean(column, cells)));
-    const auto at = static_cast<std::size_t>(found - cells.begin());
+    const std::size_t at = found - cells.begin();
     if (mapped_[at]) fail(fmt::format("--map: column '{}' twice", shown(column)));
     mapped_[at] = true;
     return at;

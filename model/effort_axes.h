@@ -17,7 +17,7 @@ struct EffortAxes {
   EffortAxes(const Motors& motors);
   EffortAxes(const Mechanism& mechanism);
   int count() const { return static_cast<int>(axes.size()); }
-  const Axis& operator[](int k) const { return axes[static_cast<std::size_t>(k)]; }
+  const Axis& operator[](int k) const { return axes[k]; }
 
   std::vector<Axis> axes;
 };

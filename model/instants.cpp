@@ -6,7 +6,7 @@ namespace ursula {
 
 std::vector<double> equallySpaced(double duration, int count) {
   std::vector<double> instants;
-  instants.reserve(static_cast<std::size_t>(count));
+  instants.reserve(count);
   for (int k = 0; k < count; ++k) instants.push_back(instantOf(duration, k, count));
   return instants;
 }

@@ -31,7 +31,7 @@ struct JointVariables {
   Vector6<S> driven(const Motors& motors) const {
     Vector6<S> out;
     for (int k = 0; k < motor_count; ++k) {
-      const Motor& motor = motors[static_cast<std::size_t>(k)];
+      const Motor& motor = motors[k];
       out(k) = of(motor.coordinate)(motor.leg);
     }
     return out;
@@ -58,7 +58,7 @@ struct BodyMotion {
 
 /// Proximal links, distal links, platform: the order of (30a).
 template <class S>
-using BodyMotions = std::array<BodyMotion<S>, body_count>;
+using BodyMotions = PerBody<BodyMotion<S>>;
 
 /// Forces and moments that one leg's joints exert on the body nearer to the platform, at the joint's point; in B, N and
 /// N·m. The moments include constraint moments, motor torque and friction.
@@ -68,6 +68,6 @@ struct LegReactions {
   Vector3d f_B = Vector3d::Zero();                          ///< distal link on platform, at B
 };
 
-using Reactions = std::array<LegReactions, leg_count>;
+using Reactions = PerLeg<LegReactions>;
 
 }  // namespace ursula

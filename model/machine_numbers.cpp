@@ -57,11 +57,11 @@ constexpr Row rows[] = {
 const Row& rowOf(Quantity quantity) { return rows[static_cast<std::size_t>(quantity)]; }
 
 Number at(ManipulatorParameters& machine, const MachineNumber& number, int entry, bool across = false) {
-  Leg& leg = machine.legs.at(static_cast<std::size_t>(std::max(number.leg, 0)));
+  Leg& leg = machine.legs.at(std::max(number.leg, 0));
   const auto& [i, j] = tensor_entries[entry];
   return rowOf(number.quantity)
       .at({machine, leg, number.body == NumberBody::proximal ? leg.proximal : leg.distal,
-           rowOf(leg.kind).coordinates[static_cast<std::size_t>(entry % 3)], across ? j : i, across ? i : j});
+           rowOf(leg.kind).coordinates[entry % 3], across ? j : i, across ? i : j});
 }
 
 using Numbers = std::vector<MachineNumber>;
@@ -99,7 +99,7 @@ void addCenter(Numbers& out, int leg, NumberBody body, const Link& link) {
 
 void addRotors(Numbers& out, int i, const Leg& leg) {
   for (int k = 0; k < 3; ++k) {
-    const Coordinate coordinate = rowOf(leg.kind).coordinates[static_cast<std::size_t>(k)];
+    const Coordinate coordinate = rowOf(leg.kind).coordinates[k];
     if (leg.rotor_inertia.on(coordinate) == 0) continue;
     MachineNumber& number = add(out, Quantity::rotor_inertia, i, NumberBody::none, k);
     number.path += std::string(".") + nameOf(coordinate);
@@ -111,7 +111,7 @@ void addRotors(Numbers& out, int i, const Leg& leg) {
 void addFriction(Numbers& out, int leg, LegKind kind) {
   bool any_slides = false;
   for (int k = 0; k < 3; ++k) {
-    const Coordinate coordinate = rowOf(kind).coordinates[static_cast<std::size_t>(k)];
+    const Coordinate coordinate = rowOf(kind).coordinates[k];
     for (const Quantity quantity : {Quantity::friction, Quantity::coulomb}) {
       MachineNumber& number = add(out, quantity, leg, NumberBody::none, k);
       number.path += std::string(".") + nameOf(coordinate);
@@ -167,7 +167,7 @@ Numbers machineNumbers(const ManipulatorParameters& machine) {
   add(out, {Q::gravity}, -1, B::none);
   add(out, {Q::platform_mass, Q::platform_center, Q::platform_inertia}, -1, B::platform);
   for (int i = 0; i < static_cast<int>(machine.legs.size()); ++i) {
-    const Leg& leg = machine.legs[static_cast<std::size_t>(i)];
+    const Leg& leg = machine.legs[i];
     const LegKind kind = leg.kind;
     add(out, {Q::base_point, Q::platform_point, Q::base_axis}, i, B::none);
     const bool telescopic = rowOf(kind).isTelescopic(), carriage = rowOf(kind).hasCarriage();

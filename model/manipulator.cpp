@@ -167,8 +167,8 @@ Motors motorsOf(const ManipulatorParameters& machine) {
 
 /// Two legs and the platform edge between them must span the base edge in any pose, and vice versa.
 void requireSpan(const ManipulatorParameters& machine, int i, int j) {
-  const Leg& first = machine.legs[static_cast<std::size_t>(i)];
-  const Leg& second = machine.legs[static_cast<std::size_t>(j)];
+  const Leg& first = machine.legs[i];
+  const Leg& second = machine.legs[j];
   if (rowOf(first.kind).hasCarriage() || rowOf(second.kind).hasCarriage()) return;  // rails have no end
   const double base = (first.base_point - second.base_point).norm();
   const double platform = (first.platform_point - second.platform_point).norm();

@@ -78,7 +78,7 @@ struct Motor {
   /// Returns "Nm" or "N", as in column names.
   const char* effortUnit() const { return slides() ? "N" : "Nm"; }
 };
-using Motors = std::array<Motor, motor_count>;
+using Motors = PerMotor<Motor>;
 
 inline bool allSlide(const Motors& motors) {
   return std::all_of(motors.begin(), motors.end(), [](const Motor& motor) { return motor.slides(); });
@@ -119,7 +119,7 @@ class Manipulator {
   const ManipulatorParameters& parameters() const { return parameters_; }
   /// Returns the parameters as given.
   const ManipulatorParameters& given() const { return given_; }
-  const Leg& leg(int i) const { return parameters_.legs[static_cast<std::size_t>(i)]; }
+  const Leg& leg(int i) const { return parameters_.legs[i]; }
   int legCount() const { return static_cast<int>(parameters_.legs.size()); }
   /// Returns the motors in the order of efforts: by leg, then by the leg's coordinates.
   const Motors& motors() const { return motors_; }

@@ -102,7 +102,7 @@ Mechanism::Mechanism(MechanismParameters parameters, const std::string& output) 
       throw InvalidParameter("mechanism.motors",
                              fmt::format("'{}', a joint of {} coordinates", shown(name), freedomsOf(found->kind)),
                              "a hinge or slide");
-    const auto index = static_cast<std::size_t>(found - joints.begin());
+    const std::size_t index = found - joints.begin();
     if (std::find(motors_.begin(), motors_.end(), index) != motors_.end())
       throw InvalidParameter("mechanism.motors", fmt::format("'{}' twice", shown(name)), "each joint once");
     motors_.push_back(index);
@@ -117,7 +117,7 @@ Mechanism::Mechanism(MechanismParameters parameters, const std::string& output) 
     if (found == names.end())
       throw InvalidParameter("mechanism.output", fmt::format("'{}', no body has that name", shown(output)),
                              fmt::format("a body of the file{}", didYouMean(output, names)));
-    output_ = static_cast<std::size_t>(found - names.begin());
+    output_ = found - names.begin();
   }
   length_ = sizeOf(parameters_);
 }

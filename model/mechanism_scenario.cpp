@@ -263,9 +263,9 @@ Eigen::MatrixXd motorColumns(const CsvTable& table, const Mechanism& mechanism, 
   Eigen::MatrixXd out;
   const auto n = static_cast<Eigen::Index>(mechanism.motorCount());
   for (Eigen::Index k = 0; k < n; ++k) {
-    const std::vector<double>* column = columnOf(table, mechanism, static_cast<std::size_t>(k), of);
+    const std::vector<double>* column = columnOf(table, mechanism, k, of);
     if (column == nullptr && !required && k == 0) return out;
-    if (column == nullptr) column = &table.at(motorColumn(mechanism, static_cast<std::size_t>(k), of));
+    if (column == nullptr) column = &table.at(motorColumn(mechanism, k, of));
     if (k == 0) out.resize(static_cast<Eigen::Index>(column->size()), n);
     out.col(k) = Eigen::Map<const Eigen::VectorXd>(column->data(), static_cast<Eigen::Index>(column->size()));
   }

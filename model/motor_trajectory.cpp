@@ -28,7 +28,7 @@ class Fourier : public MotorTrajectory {
     const auto n = static_cast<Eigen::Index>(motors_.size());
     MotorMotion out{t, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
     for (Eigen::Index k = 0; k < n; ++k) {
-      const FourierSeries& series = motors_[static_cast<std::size_t>(k)];
+      const FourierSeries& series = motors_[k];
       out.q(k) = series.offset;
       const auto add = [&](std::size_t j, double a, double b) {  // a sin + b cos
         const double rate = 2 * pi * static_cast<double>(j + 1) / period_;
@@ -78,7 +78,7 @@ class Samples : public MotorTrajectory {
     const auto n = static_cast<Eigen::Index>(curves_.size());
     MotorMotion out{t, Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
     for (Eigen::Index k = 0; k < n; ++k) {
-      const Knot point = curves_[static_cast<std::size_t>(k)].at(t);
+      const Knot point = curves_[k].at(t);
       out.q(k) = point.value(0);
       out.qdot(k) = point.rate(0);
       out.qddot(k) = point.acceleration(0);

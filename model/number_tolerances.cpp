@@ -146,7 +146,7 @@ NumberTolerances statedTolerances(const Scenario& scenario) {
   const ManipulatorParameters& machine = scenario.manipulator->given();
   const toml::array* legs = document["manipulator"]["leg"].as_array();
   for (const MachineNumber& number : machineNumbers(machine)) {
-    const auto i = static_cast<std::size_t>(std::max(number.leg, 0));
+    const std::size_t i = std::max(number.leg, 0);
     std::optional<double> found = lookUp(raw, number, number.path, machine.legs[i]);
     if (!found && number.leg >= 0) {
       const std::vector<std::string> parts = afterLeg(number.path);

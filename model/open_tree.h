@@ -26,14 +26,14 @@ struct OpenTree {
     Vector3d force = Vector3d::Zero();  ///< M u̇ + bias − applied forces, on the leg's coordinates
   };
 
-  std::array<Leg, leg_count> legs;
+  PerLeg<Leg> legs;
   Vector6d force = Vector6d::Zero();  ///< the same for the platform's speeds
 };
 
 /// Further quantities for direct dynamics; the forces of the OpenTree are then those at u̇ = 0.
 struct OpenTreeMasses {
-  std::array<Matrix3d, leg_count> legs;
-  std::array<Vector3d, leg_count> drift;  ///< acceleration of the platform's point minus that of the leg's, at u̇ = 0
+  PerLeg<Matrix3d> legs;
+  PerLeg<Vector3d> drift;  ///< acceleration of the platform's point minus that of the leg's, at u̇ = 0
   Matrix6d platform;
 };
 

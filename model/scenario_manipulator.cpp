@@ -97,7 +97,7 @@ class LegReader {
       if (found == has.end())
         table.fail("actuated", fmt::format("'{}' is not a coordinate of {}, a {} leg, expected {}", name, own_.place(),
                                            rowOf(leg_.kind).name, coordinatesOf(leg_.kind)));
-      bool& driven = leg_.actuated[static_cast<std::size_t>(found - has.begin())];
+      bool& driven = leg_.actuated[found - has.begin()];
       if (driven) table.fail("actuated", fmt::format("'{}' twice", name));
       driven = true;
     }

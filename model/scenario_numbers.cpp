@@ -179,7 +179,7 @@ std::vector<std::string> ScenarioNumbers::expanded(const std::string& key) const
   const std::vector<std::string> parts = partsOf(whole);
   const auto star = std::find(parts.begin(), parts.end(), "*");
   if (star == parts.end()) return {whole};
-  const auto before = static_cast<std::size_t>(star - parts.begin());
+  const std::size_t before = star - parts.begin();
   const auto with = [&](std::size_t index) {
     std::vector<std::string> out = parts;
     out[before] = std::to_string(index);

@@ -248,7 +248,7 @@ std::optional<std::size_t> TomlSection::readChoice(const ScenarioKey& key) const
   const auto found = std::find(choices.begin(), choices.end(), given);
   if (found == choices.end())
     fail(key.name, fmt::format("'{}', expected {}{}", shown(given), quotedList(choices), didYouMean(given, choices)));
-  return static_cast<std::size_t>(found - choices.begin());
+  return found - choices.begin();
 }
 
 std::optional<TomlSection> TomlSection::section(const std::string& key) const {

@@ -25,10 +25,10 @@ int SimbodyLoop::Impl::indexOf(int joint, int leg) const {
 void SimbodyLoop::Impl::setLeg(int leg, const std::array<double, 3>& q) {
   for (int joint = 0; joint < 3; ++joint) {
     const LoopParts::Place place = mechanism.place(joint, leg);
-    place.body.setOneQ(state, place.coordinate, q[static_cast<std::size_t>(joint)]);
+    place.body.setOneQ(state, place.coordinate, q[joint]);
   }
   for (const LoopParts::Rotor& rotor : mechanism.rotors)
-    if (rotor.leg == leg) rotor.wheel.setOneQ(state, 0, q[static_cast<std::size_t>(rotor.joint)]);
+    if (rotor.leg == leg) rotor.wheel.setOneQ(state, 0, q[rotor.joint]);
 }
 
 std::array<double, 3> SimbodyLoop::Impl::legGeometry(int leg, const Motion<double>& motion) const {
@@ -157,7 +157,7 @@ void SimbodyLoop::place(const Motion<double>& motion, const JointMotion& joint_m
   loop.topology == Topology::tree_through_leg_1 ? loop.setRates(motion) : loop.setFreePlatform(motion);
   for (int i = 0; i < loop.legCount(); ++i)
     for (int joint = 0; joint < 3; ++joint) {
-      const Coordinate coordinate = coordinates(i)[static_cast<std::size_t>(joint)];
+      const Coordinate coordinate = coordinates(i)[joint];
       loop.state.updU()[loop.indexOf(joint, i)] = joint_motion.q_dot.of(coordinate)(i);
       loop.u_dot[loop.indexOf(joint, i)] = joint_motion.q_ddot.of(coordinate)(i);
     }
@@ -173,7 +173,7 @@ JointMotion SimbodyLoop::joints() const {
   JointMotion out;
   for (int i = 0; i < loop.legCount(); ++i)
     for (int joint = 0; joint < 3; ++joint) {
-      const Coordinate coordinate = rowOf(loop.parameters.leg(i).kind).coordinates[static_cast<std::size_t>(joint)];
+      const Coordinate coordinate = rowOf(loop.parameters.leg(i).kind).coordinates[joint];
       const LoopParts::Place place = loop.mechanism.place(joint, i);
       out.q.of(coordinate)(i) = place.body.getOneQ(loop.state, place.coordinate);
       out.q_dot.of(coordinate)(i) = loop.mechanism.rate(loop.state, joint, i);
@@ -189,21 +189,20 @@ void SimbodyLoop::coordinates(const Motion<double>& motion, const JointMotion& j
                               TreeCoordinates& out) const {
   const Impl& loop = *impl_;
   out.motion = motion;
-  out.q.resize(static_cast<std::size_t>(loop.state.getNQ()));
-  out.u.resize(static_cast<std::size_t>(loop.state.getNU()));
+  out.q.resize(loop.state.getNQ());
+  out.u.resize(loop.state.getNU());
   out.u_dot.resize(out.u.size());
   for (int leg = 0; leg < loop.legCount(); ++leg)
     for (int joint = 0; joint < 3; ++joint) {
-      const Coordinate coordinate = rowOf(loop.parameters.leg(leg).kind).coordinates[static_cast<std::size_t>(joint)];
-      const auto at = static_cast<std::size_t>(loop.indexOf(joint, leg));  // q has the order of u before the platform's
+      const Coordinate coordinate = rowOf(loop.parameters.leg(leg).kind).coordinates[joint];
+      const std::size_t at = loop.indexOf(joint, leg);  // q has the order of u before the platform's
       out.q[at] = joint_motion.q.of(coordinate)(leg);
       out.u[at] = joint_motion.q_dot.of(coordinate)(leg);
       out.u_dot[at] = joint_motion.q_ddot.of(coordinate)(leg);
     }
   for (const LoopParts::Rotor& rotor : loop.mechanism.rotors) {
-    const auto at = static_cast<std::size_t>(loop.indexOf(rotor)),
-               of = static_cast<std::size_t>(loop.indexOf(rotor.joint, rotor.leg));
-    out.q[static_cast<std::size_t>(rotor.wheel.getFirstQIndex(loop.state))] = out.q[of];
+    const std::size_t at = loop.indexOf(rotor), of = loop.indexOf(rotor.joint, rotor.leg);
+    out.q[rotor.wheel.getFirstQIndex(loop.state)] = out.q[of];
     out.u[at] = out.u[of];
     out.u_dot[at] = out.u_dot[of];
   }
@@ -232,7 +231,7 @@ void SimbodyLoop::Impl::applyForces() {
     const Leg& leg = parameters.leg(i);
     if (!leg.friction.any() && !leg.coulomb.any()) continue;
     for (int joint = 0; joint < 3; ++joint) {
-      const double viscous = leg.friction.on(rowOf(leg.kind).coordinates[static_cast<std::size_t>(joint)]);
+      const double viscous = leg.friction.on(rowOf(leg.kind).coordinates[joint]);
       const double rate = mechanism.rate(state, joint, i);
       on_joints[indexOf(joint, i)] = coulombForce(leg, joint, rate) - viscous * rate;
     }
@@ -262,14 +261,14 @@ void SimbodyLoop::openTree(const TreeCoordinates& at, OpenTree& out) {
                      .transpose();
   const int platform = loop.mechanism.platform.getFirstUIndex(loop.state);
   for (int i = 0; i < loop.legCount(); ++i) {
-    OpenTree::Leg& leg = out.legs[static_cast<std::size_t>(i)];
+    OpenTree::Leg& leg = out.legs[i];
     const int first = loop.indexOf(0, i);
     leg.J = G.block<3, 3>(3 * i, first);
     leg.P = -G.block<3, 6>(3 * i, platform);
     leg.force = force.segment<3>(first);
   }
   for (const LoopParts::Rotor& rotor : loop.mechanism.rotors)
-    out.legs[static_cast<std::size_t>(rotor.leg)].force(rotor.joint) += force(loop.indexOf(rotor));
+    out.legs[rotor.leg].force(rotor.joint) += force(loop.indexOf(rotor));
   out.force = force.segment<6>(platform);
 }
 

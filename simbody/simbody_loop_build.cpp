@@ -21,7 +21,7 @@ class DriverForce : public SimTK::Force::Custom::Implementation {
                  SimTK::Vector_<SimTK::Vec3>&, SimTK::Vector& mobility_forces) const override {
     const Vector6d torques = applied_->history ? applied_->history(state.getTime()) : applied_->torques;
     for (int m = 0; m < motor_count; ++m) {
-      const Motor& motor = applied_->motors[static_cast<std::size_t>(m)];
+      const Motor& motor = applied_->motors[m];
       apply(state, motor.joint, motor.leg, torques(m), mobility_forces);
     }
     if (applied_->any_coulomb) addCoulomb(state, mobility_forces);
@@ -70,10 +70,9 @@ SimTK::MassProperties massProperties(double mass, const Vector3d& center, const 
 }
 
 LoopParts::Place LoopParts::place(int joint, int leg) const {
-  const auto i = static_cast<std::size_t>(leg);
-  const int first = joints_of_proximal[i];
-  if (joint < first) return {proximal[i], joint};
-  return {distal[i], joint - first};
+  const int first = joints_of_proximal[leg];
+  if (joint < first) return {proximal[leg], joint};
+  return {distal[leg], joint - first};
 }
 
 double LoopParts::rate(const SimTK::State& state, int joint, int leg) const {
@@ -82,7 +81,7 @@ double LoopParts::rate(const SimTK::State& state, int joint, int leg) const {
 }
 
 double coulombForce(const Leg& leg, int joint, double rate) {
-  const Coordinate coordinate = rowOf(leg.kind).coordinates[static_cast<std::size_t>(joint)];
+  const Coordinate coordinate = rowOf(leg.kind).coordinates[joint];
   return -leg.coulomb.on(coordinate) * std::tanh(rate / leg.coulomb.speedOf(coordinate));
 }
 
@@ -122,9 +121,8 @@ void SimbodyLoop::Impl::addPlatform() {
   else
     mechanism.platform = SimTK::MobilizedBody::Free(matter.Ground(), body);
   for (int leg = on_leg_1 ? 1 : 0; leg < legCount(); ++leg)
-    mechanism.balls.emplace_back(mechanism.distal[static_cast<std::size_t>(leg)],
-                                 SimTK::Vec3(0, 0, parameters.leg(leg).distal.length), mechanism.platform,
-                                 toSimTK(parameters.leg(leg).platform_point));
+    mechanism.balls.emplace_back(mechanism.distal[leg], SimTK::Vec3(0, 0, parameters.leg(leg).distal.length),
+                                 mechanism.platform, toSimTK(parameters.leg(leg).platform_point));
 }
 
 void SimbodyLoop::Impl::addRotors() {
@@ -153,7 +151,7 @@ void SimbodyLoop::Impl::addForces(std::shared_ptr<const Load> load) {
     const Leg& from = parameters.leg(leg);
     for (int joint = 0; joint < 3; ++joint) {
       const LoopParts::Place place = mechanism.place(joint, leg);
-      const Coordinate coordinate = rowOf(from.kind).coordinates[static_cast<std::size_t>(joint)];
+      const Coordinate coordinate = rowOf(from.kind).coordinates[joint];
       addDamper(forces, place.body, place.coordinate, from.friction.on(coordinate));
     }
     applied->legs.push_back(from);

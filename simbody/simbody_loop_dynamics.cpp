@@ -105,7 +105,7 @@ Vector6d SimbodyLoop::inverseDynamics() const {
   constraints_and_actuators.topRows(G.rows()) = G;
   const Motors& motors = loop.parameters.motors();
   for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = motors[static_cast<std::size_t>(m)];
+    const Motor& motor = motors[m];
     constraints_and_actuators(G.rows() + m, loop.indexOf(motor.joint, motor.leg)) = 1;
   }
   const Eigen::VectorXd forces = constraints_and_actuators.transpose().partialPivLu().solve(mapped(residual));
@@ -140,7 +140,7 @@ int SimbodyLoop::stateSize() const { return impl_->state.getNQ() + impl_->state.
 
 std::vector<double> SimbodyLoop::state() const {
   std::vector<double> x;
-  x.reserve(static_cast<std::size_t>(stateSize()));
+  x.reserve(stateSize());
   const SimTK::Vector& q = impl_->state.getQ();
   const SimTK::Vector& u = impl_->state.getU();
   for (int i = 0; i < q.size(); ++i) x.push_back(q[i]);
@@ -171,13 +171,13 @@ SimbodyLoop::Power SimbodyLoop::power() const {
   const Impl& loop = *impl_;
   Power power;
   for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = loop.parameters.motors()[static_cast<std::size_t>(m)];
+    const Motor& motor = loop.parameters.motors()[m];
     power.actuators += loop.applied->torques(m) * loop.mechanism.rate(loop.state, motor.joint, motor.leg);
   }
   for (int i = 0; i < loop.legCount(); ++i) {
     const Leg& leg = loop.parameters.leg(i);
     for (int joint = 0; joint < 3; ++joint) {
-      const double viscous = leg.friction.on(rowOf(leg.kind).coordinates[static_cast<std::size_t>(joint)]);
+      const double viscous = leg.friction.on(rowOf(leg.kind).coordinates[joint]);
       const double rate = loop.mechanism.rate(loop.state, joint, i);
       power.friction += (coulombForce(leg, joint, rate) - viscous * rate) * rate;
     }

@@ -62,14 +62,13 @@ void SimbodyLoop::Impl::eliminate(const Vector6d& torques) {
   SimTK::Vector_<SimTK::SpatialVec> at_rest;
   matter.calcBodyAccelerationFromUDot(open, SimTK::Vector(nu, 0.0), at_rest);
 
-  leg_jacobians.resize(static_cast<std::size_t>(legCount()));
+  leg_jacobians.resize(legCount());
   Eigen::Matrix<double, Eigen::Dynamic, 6> N = Eigen::Matrix<double, Eigen::Dynamic, 6>::Zero(nu, 6);
   SimTK::Vector c(nu, 0.0);
   for (int k = 0; k < 6; ++k) N(of_platform + k, k) = 1;
   for (int i = 0; i < legCount(); ++i) {
-    const auto index = static_cast<std::size_t>(i);
-    const LegClosure leg = closureOf(mechanism, open, index, parameters.leg(i), chains[index], at_rest);
-    leg_jacobians[index] = leg.J;
+    const LegClosure leg = closureOf(mechanism, open, i, parameters.leg(i), chains[i], at_rest);
+    leg_jacobians[i] = leg.J;
     const Eigen::PartialPivLU<Matrix3d> factors(leg.J);
     const Matrix36 rates = factors.solve(leg.P);        // (b)
     const Vector3d constant = factors.solve(leg.bias);  // (b)
@@ -110,7 +109,7 @@ double SimbodyLoop::gapAcceleration() const {
   double largest = 0;
   for (int i = 0; i < loop.legCount(); ++i) {
     const Leg& leg = loop.parameters.leg(i);
-    const SimTK::MobilizedBody& distal = loop.mechanism.distal[static_cast<std::size_t>(i)];
+    const SimTK::MobilizedBody& distal = loop.mechanism.distal[i];
     const SimTK::Vec3 on_leg = accelerationOf(distal, SimTK::Vec3(0, 0, leg.distal.length));
     const SimTK::Vec3 on_platform = accelerationOf(loop.mechanism.platform, toSimTK(leg.platform_point));
     largest = std::max(largest, (on_leg - on_platform).norm());
@@ -137,17 +136,16 @@ Reactions SimbodyLoop::reactions() const {
   };
   Reactions out;
   for (int i = 0; i < loop.legCount(); ++i) {
-    const auto index = static_cast<std::size_t>(i);
-    const SimTK::MobilizedBody &first = loop.mechanism.proximal[index], &second = loop.mechanism.distal[index];
+    const SimTK::MobilizedBody &first = loop.mechanism.proximal[i], &second = loop.mechanism.distal[i];
     Vector3d of_joints;
     for (int joint = 0; joint < 3; ++joint) of_joints(joint) = residual[loop.indexOf(joint, i)];
     for (const LoopParts::Rotor& rotor : loop.mechanism.rotors)
       if (rotor.leg == i) of_joints(rotor.joint) += residual[loop.indexOf(rotor)];
-    const Vector3d on_leg = loop.leg_jacobians[index].transpose().partialPivLu().solve(of_joints);
+    const Vector3d on_leg = loop.leg_jacobians[i].transpose().partialPivLu().solve(of_joints);
     const Vector3d to_B = loop.parameters.leg(i).distal.length * toEigen(SimTK::Vec3(second.getBodyRotation(open).z()));
     const Vector3d to_R = toEigen(SimTK::Vec3(second.getBodyOriginLocation(open) - first.getBodyOriginLocation(open)));
     const Vector6d on_second = wrenchOn(second), on_first = wrenchOn(first);
-    LegReactions& to = out[index];
+    LegReactions& to = out[i];
     to.f_B = -on_leg;
     to.f_R = on_second.tail<3>() - on_leg;
     to.n_R = on_second.head<3>() - to_B.cross(on_leg);

@@ -87,7 +87,6 @@ void SimbodyLoop::Impl::addLeg(int leg) {
 /// Adds a link with its mobilizer. The mobilizer's frames on both bodies have the same axes at zero: those of the
 /// joints, completed to a frame.
 SimTK::MobilizedBody SimbodyLoop::Impl::addLink(const LegChain& chain, int link, SimTK::MobilizedBody& parent) {
-  const auto at = static_cast<std::size_t>(link);
   const int first = chain.firstOf(link);
   const Vector3d& axis = chain.joint(first).axis;
   const bool is_universal = chain.jointsOf(link) == 2, slides = chain.slides(first);
@@ -101,7 +100,7 @@ SimTK::MobilizedBody SimbodyLoop::Impl::addLink(const LegChain& chain, int link,
   const Eigen::Isometry3d place = chain.place(first);
   const SimTK::Transform on_parent(toSimTK(Matrix3d(place.linear() * axes)), toSimTK(Vector3d(place.translation()))),
       on_child(toSimTK(axes));
-  const SimTK::Body::Rigid body(massProperties(chain.links[at].mass, chain.centers[at], chain.links[at].inertia));
+  const SimTK::Body::Rigid body(massProperties(chain.links[link].mass, chain.centers[link], chain.links[link].inertia));
   if (is_universal) return SimTK::MobilizedBody::Universal(parent, on_parent, body, on_child);
   if (slides) return SimTK::MobilizedBody::Slider(parent, on_parent, body, on_child);
   return SimTK::MobilizedBody::Pin(parent, on_parent, body, on_child);

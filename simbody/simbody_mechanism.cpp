@@ -50,7 +50,7 @@ Eigen::VectorXd SimbodyMechanism::motorRates() const {
   const Impl& m = *impl_;
   m.realize(SimTK::Stage::Velocity);
   Eigen::VectorXd out(m.motorCount());
-  for (Eigen::Index k = 0; k < out.size(); ++k) out(k) = m.rate(m.coordinates[static_cast<std::size_t>(k)]);
+  for (Eigen::Index k = 0; k < out.size(); ++k) out(k) = m.rate(m.coordinates[k]);
   return out;
 }
 
@@ -67,7 +67,7 @@ int SimbodyMechanism::stateSize() const { return impl_->state.getNQ() + impl_->s
 
 std::vector<double> SimbodyMechanism::state() const {
   std::vector<double> y;
-  y.reserve(static_cast<std::size_t>(stateSize()));
+  y.reserve(stateSize());
   for (int i = 0; i < impl_->state.getNQ(); ++i) y.push_back(impl_->state.getQ()[i]);
   for (int i = 0; i < impl_->state.getNU(); ++i) y.push_back(impl_->state.getU()[i]);
   return y;

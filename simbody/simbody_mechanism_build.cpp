@@ -173,7 +173,7 @@ void SimbodyMechanism::Impl::addScales() {
     if (kind == JointKind::free) column_scale.segment<3>(first + 3).setConstant(length);
   }
   row_scale = Eigen::VectorXd::Ones(state.getNMultipliers() + static_cast<Eigen::Index>(spins.size()));
-  joint_of_row.resize(static_cast<std::size_t>(state.getNMultipliers()));
+  joint_of_row.resize(state.getNMultipliers());
   for (const CutRows& cut : cut_rows) {
     int count = 0, of_velocity = 0, of_acceleration = 0;
     SimTK::MultiplierIndex first, unused, none;
@@ -181,7 +181,7 @@ void SimbodyMechanism::Impl::addScales() {
     cut.constraint.getIndexOfMultipliersInUse(state, first, unused, none);
     for (int i = first; i < first + count; ++i) {
       if (!cut.angular) row_scale(i) = length;
-      joint_of_row[static_cast<std::size_t>(i)] = cut.joint;
+      joint_of_row[i] = cut.joint;
     }
   }
 }

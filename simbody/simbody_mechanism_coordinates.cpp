@@ -47,7 +47,7 @@ void SimbodyMechanism::Impl::addCoordinate(std::size_t j) {
       c.row = joint.kind == JointKind::prismatic || k >= 3 ? Row::linear : Row::angular;
       c.is_on_child = c.row == Row::angular && (!has_axes || k == 1);
       const Matrix3d& of_file = mechanism.bodies()[c.is_on_child ? joint.child : joint.parent].frame.linear();
-      c.axis = has_axes ? joint.axis[static_cast<std::size_t>(k)] : Vector3d(of_file.col(k % 3));
+      c.axis = has_axes ? joint.axis[k] : Vector3d(of_file.col(k % 3));
       if (c.is_on_child && !has_axes) c.axis = joint.turn * c.axis;
     }
     coordinates.push_back(c);
@@ -138,7 +138,7 @@ CoordinateRow SimbodyMechanism::Impl::row(const CoordinateInSimbody& c, bool wit
 
 Eigen::VectorXd SimbodyMechanism::Impl::motorValues() const {
   Eigen::VectorXd out(motorCount());
-  for (Eigen::Index k = 0; k < out.size(); ++k) out(k) = value(coordinates[static_cast<std::size_t>(k)]);
+  for (Eigen::Index k = 0; k < out.size(); ++k) out(k) = value(coordinates[k]);
   return out;
 }
 

@@ -49,8 +49,7 @@ SimbodyMechanism::OpenTree SimbodyMechanism::openTree() const {
   m.realize(SimTK::Stage::Velocity);
   if (!m.rates) m.setRatesByMotors(LeastSquares(m.allRows()));
   OpenTree out{*m.rates, Eigen::MatrixXd(m.motorCount(), m.state.getNU()), mapped(m.u_dot)};
-  for (Eigen::Index k = 0; k < m.motorCount(); ++k)
-    out.S.row(k) = m.row(m.coordinates[static_cast<std::size_t>(k)], false).J;
+  for (Eigen::Index k = 0; k < m.motorCount(); ++k) out.S.row(k) = m.row(m.coordinates[k], false).J;
   return out;
 }
 
@@ -119,7 +118,7 @@ bool SimbodyMechanism::Impl::simbodyAgrees() try {
 Eigen::VectorXd SimbodyMechanism::Impl::motorAccelerations() const {
   Eigen::VectorXd out(motorCount());
   for (Eigen::Index k = 0; k < out.size(); ++k) {
-    const CoordinateRow at = row(coordinates[static_cast<std::size_t>(k)], true);
+    const CoordinateRow at = row(coordinates[k], true);
     out(k) = at.J.dot(mapped(u_dot)) + at.bias;
   }
   return out;

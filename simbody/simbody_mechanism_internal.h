@@ -144,9 +144,7 @@ struct SimbodyMechanism::Impl {
   Eigen::MatrixXd allRows() const;
   Eigen::VectorXd closureErrors() const;
   Eigen::VectorXd closureBias() const;
-  double motorScale(Eigen::Index k) const {
-    return mechanism.motor(static_cast<std::size_t>(k)).slides() ? mechanism.length() : 1;
-  }
+  double motorScale(Eigen::Index k) const { return mechanism.motor(k).slides() ? mechanism.length() : 1; }
   void step(const Eigen::VectorXd& scaled);
   /// Returns whether Newton's method brought the motors to `target` quickly.
   bool newton(const Eigen::VectorXd& target);

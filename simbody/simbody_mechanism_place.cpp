@@ -71,7 +71,7 @@ Eigen::MatrixXd SimbodyMechanism::Impl::allRows() const {
   Eigen::MatrixXd out(closures.rows() + motorCount(), closures.cols());
   out.topRows(closures.rows()) = closures;
   for (Eigen::Index k = 0; k < motorCount(); ++k) {
-    const Eigen::VectorXd J = row(coordinates[static_cast<std::size_t>(k)], false).J;
+    const Eigen::VectorXd J = row(coordinates[k], false).J;
     out.row(closures.rows() + k) = J.cwiseProduct(column_scale).transpose() / motorScale(k);
   }
   return out;
@@ -131,7 +131,7 @@ std::string SimbodyMechanism::Impl::worstJoint() const {
   Eigen::Index worst = 0;
   if (row_scale.size() == 0 || joint_of_row.empty()) return "none";
   closureErrors().head(static_cast<Eigen::Index>(joint_of_row.size())).cwiseAbs().maxCoeff(&worst);
-  return mechanism.joints()[joint_of_row[static_cast<std::size_t>(worst)]].name;
+  return mechanism.joints()[joint_of_row[worst]].name;
 }
 
 void SimbodyMechanism::Impl::moveTo(const Eigen::VectorXd& target, double t) {
@@ -195,7 +195,7 @@ void SimbodyMechanism::Impl::setRates(const MotorMotion& motion) {
   right << -closureBias(), motion.qddot;
   for (Eigen::Index k = 0; k < motorCount(); ++k) {
     double& of_motor = right(row_scale.size() + k);
-    of_motor = (of_motor - row(coordinates[static_cast<std::size_t>(k)], true).bias) / motorScale(k);
+    of_motor = (of_motor - row(coordinates[k], true).bias) / motorScale(k);
   }
   const Eigen::VectorXd found = column_scale.asDiagonal() * factors.solve(right);
   for (int i = 0; i < u_dot.size(); ++i) u_dot[i] = found(i);

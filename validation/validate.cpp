@@ -47,12 +47,12 @@ void addFacts(const std::optional<ErrorBudget>& budget, Evidence& evidence, Vali
 }
 
 /// Reports progress; `done` is the completed part of all work.
-void tell(const ValidationOptions& options, const WorkParts& work, double done, const char* now) {
+void reportProgress(const ValidationOptions& options, const WorkParts& work, double done, const char* now) {
   if (options.progress) options.progress(done / work.total(), now);
 }
 
 /// Says what a solver of few questions was asked, and what that may miss.
-void sayQuestions(const Evidence& evidence, ValidationResult& result) {
+void addQuestions(const Evidence& evidence, ValidationResult& result) {
   const Subject& subject = *evidence.subject;
   const Check* between = findCheck(result.checks, "torque.between");
   if (subject.most_questions == 0 || between == nullptr || !std::isfinite(between->gap)) return;
@@ -90,13 +90,11 @@ GivenTorques answersOf(const Evidence& evidence, const std::string& name) {
 
 /// Wraps a subject that works in natural units for questions in SI, with positions relative to their origin.
 Subject inSi(const Subject& subject, const FrameChange& natural) {
-  FrameChange there = natural;
-  there.origin.setZero();
   Subject out;
   out.name = subject.name;
-  out.torques = [torques = subject.torques, there](const Motion<double>& motion) {
-    Vector6d efforts = torques(there.of(motion));
-    for (int k = 0; k < motor_count; ++k) efforts(k) *= there.effort(k);
+  out.torques = [torques = subject.torques, to_natural = natural.unshifted()](const Motion<double>& motion) {
+    Vector6d efforts = torques(to_natural.transformed(motion));
+    for (int k = 0; k < motor_count; ++k) efforts(k) *= to_natural.effort(k);
     return efforts;
   };
   return out;
@@ -135,17 +133,18 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   if (!options.quick) reference.prepare(static_cast<bool>(subject.accelerations), options.ladder);
   const WorkParts work = workParts(scenario);
   double done = work.reference;
-  tell(options, work, done, "experiments");
+  reportProgress(options, work, done, "experiments");
   Evidence evidence = gather(scenario, reference, subject, right, options.fault ? *options.fault : InjectedFault{},
-                             {options.ladder, options.reactions, options.quick, witnesses(),
-                              [&](double share) { tell(options, work, done + share * work.samples, "experiments"); }});
+                             {options.ladder, options.reactions, options.quick, witnesses(), [&](double share) {
+                                reportProgress(options, work, done + share * work.samples, "experiments");
+                              }});
   ValidationResult result = emptyResult(scenario, subject);
   done += work.samples + work.replays;
-  tell(options, work, done, "checks");
+  reportProgress(options, work, done, "checks");
   if (right && options.time_limit <= 0 && !options.asked_to_end) evidence.threads = options.threads;
   result.checks = judgeAll(evidence);
   done += work.checks;
-  tell(options, work, done, "sources of the error");
+  reportProgress(options, work, done, "sources of the error");
   std::optional<ErrorBudget> budget;
   if (options.budget && evidence.amplification != nullptr)
     budget = attribute(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan,
@@ -153,14 +152,14 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   reference.stop();  // the rest is short and turns the finished part into a result
   judgeEveryAnswer(evidence, result.checks);
   addFacts(budget, evidence, result);
-  sayQuestions(evidence, result);
+  addQuestions(evidence, result);
   result.deviation = effortDeviation(evidence, result.checks, result.odd_one);
   conclude(scenario, evidence.has, 0, result);
   if (result.verdict == Verdict::fail && subject.formulation == Formulation::external && !onlyOddEngineFails(result)) {
     explainSolver(scenario, evidence, subject, result);
     result.size = failureSize(*evidence.scenario, evidence.samples, scenario, evidence.natural, result);
   }
-  sayEfforts(result);
+  addEffortWords(result);
   return result;
 }
 
@@ -181,7 +180,7 @@ ValidationResult nothingReached(const Scenario& scenario, const Subject& subject
   SubjectHas has(subject);
   has.out_of_time = over.what();
   conclude(scenario, has, 0, result);
-  sayEfforts(result);
+  addEffortWords(result);
   return result;
 }
 
@@ -189,9 +188,7 @@ ValidationResult validateOwn(const Scenario& scenario, const SubjectOf& make, bo
                              const ValidationOptions& options) {
   try {
     const std::shared_ptr<const Reference> reference = referenceOf(scenario, options);
-    FrameChange there = reference->natural;
-    there.origin.setZero();
-    const Subject subject = transformed(make(reference->relocated), there);
+    const Subject subject = transformed(make(reference->relocated), reference->natural.unshifted());
     return run(scenario, *reference, subject, right, options);
   } catch (const OutOfTime& over) {
     return nothingReached(scenario, make(scenario), over);
@@ -218,7 +215,7 @@ ValidationResult validateMade(const Scenario& scenario, const SubjectOf& make, c
 }
 
 ValidationResult validate(const Scenario& scenario, const ValidationOptions& options) {
-  const SubjectOf noc = [](const Scenario& here) { return nocSubject(*here.manipulator, here.load); };
+  const SubjectOf noc = [](const Scenario& its) { return nocSubject(*its.manipulator, its.load); };
   return validateOwn(scenario, noc, true, options);
 }
 

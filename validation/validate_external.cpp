@@ -34,10 +34,10 @@ void addFileFindings(const TorqueFile& file, ValidationResult& result) {
 }
 
 /// Converts units by powers of two, so no digit is lost.
-TorqueFile inUnits(TorqueFile file, const FrameChange& there) {
-  const Units& units = there.units;
+TorqueFile inUnits(TorqueFile file, const FrameChange& natural) {
+  const Units& units = natural.units;
   Vector6d effort;
-  for (int k = 0; k < motor_count; ++k) effort(k) = there.effort(k);
+  for (int k = 0; k < motor_count; ++k) effort(k) = natural.effort(k);
   for (std::size_t k = 0; k < file.rows(); ++k) {
     file.t[k] /= units.time;
     file.time_precision[k] /= units.time;
@@ -80,8 +80,8 @@ void addFacts(const Evidence& evidence, const std::optional<ErrorBudget>& budget
 /// Names the cause; `solver` may be null.
 void addCause(const Scenario& scenario, const FrameChange& natural, const TorqueFile& file, const Evidence& evidence,
               const Subject* solver, ValidationResult& result) {
-  const Scenario there = relocated(scenario, natural.origin);
-  if (solver == nullptr) return partLikelyCause()(there, file, nullptr, result);
+  const Scenario near_origin = relocated(scenario, natural.origin);
+  if (solver == nullptr) return partLikelyCause()(near_origin, file, nullptr, result);
   Subject in_si = *solver;
   in_si.torques = [solver, origin = natural.origin](Motion<double> motion) {
     motion.p += origin;
@@ -89,7 +89,7 @@ void addCause(const Scenario& scenario, const FrameChange& natural, const Torque
   };
   const Subject in_natural = transformed(*solver, natural);
   const WrongSolver wrong{in_si, in_natural, evidence};
-  partLikelyCause()(there, file, &wrong, result);
+  partLikelyCause()(near_origin, file, &wrong, result);
 }
 
 }  // namespace
@@ -108,18 +108,18 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   checkMotion(scenario);
   requireTellingTolerance(scenario);
   const FrameChange natural = naturalFrameChange(scenario);
-  const Scenario here = natural.of(scenario);
+  const Scenario in_natural = natural.transformed(scenario);
   const TorqueFile file = within(torques, scenario.trajectory->duration());
   ExternalTorques external;
   ExternalReplay replay;
   std::string out_of_time;
   try {
-    external = runExternal(here, inUnits(file, natural), deadline);
-    if (torques.derived_from.empty()) replay = replayExternal(here, external, natural.units, deadline);
+    external = runExternal(in_natural, inUnits(file, natural), deadline);
+    if (torques.derived_from.empty()) replay = replayExternal(in_natural, external, natural.units, deadline);
   } catch (const OutOfTime& over) {
     out_of_time = over.what();
   }
-  Evidence evidence = gatherExternal(scenario, natural, here, external, replay);
+  Evidence evidence = gatherExternal(scenario, natural, in_natural, external, replay);
   evidence.has.out_of_time = out_of_time;
   evidence.has.left_out_replays = !torques.derived_from.empty();
   const JudgedSubject of_file{torques.file.filename().string(), Formulation::external,
@@ -144,7 +144,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
     if (partLikelyCause() != nullptr) addCause(scenario, natural, file, evidence, options.solver, result);
     result.size = failureSize(here, evidence.samples, scenario, natural, result);
   }
-  sayEfforts(result);
+  addEffortWords(result);
   return result;
 }
 

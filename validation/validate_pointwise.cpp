@@ -41,10 +41,10 @@ ValidationResult validatePointwise(const Scenario& given, const std::vector<Chec
   Evidence evidence;
   evidence.given = &given;
   evidence.natural = naturalFrameChange(given);
-  const Scenario scenario = evidence.natural.of(given), here = relocated(given, evidence.natural.origin);
-  FrameChange there = evidence.natural;
-  there.origin.setZero();
-  const Subject subject = transformed(nocSubject(*here.manipulator, here.load), there);
+  const Scenario scenario = evidence.natural.transformed(given);
+  const Scenario near_origin = relocated(given, evidence.natural.origin);
+  const Subject subject =
+      transformed(nocSubject(*near_origin.manipulator, near_origin.load), evidence.natural.unshifted());
   evidence.scenario = &scenario;
   evidence.subject = &subject;
   evidence.has.left_out_replays = true;
@@ -54,7 +54,7 @@ ValidationResult validatePointwise(const Scenario& given, const std::vector<Chec
   for (Check& check : judgeSamples(evidence)) result.checks.push_back(std::move(check));
   if (given.tolerance) result.deviation = effortDeviation(evidence, result.checks);
   conclude(given, evidence.has, 0, result);
-  sayEfforts(result);
+  addEffortWords(result);
   return result;
 }
 

@@ -112,11 +112,10 @@ class SuiteRun {
 
   std::vector<SuiteEntry> run() {
     inParallel(options_.jobs, static_cast<int>(members_.size()), [this](int k) {
-      const auto index = static_cast<std::size_t>(k);
-      entries_[index] = judgeOne(members_[index]);
+      entries_[k] = judgeOne(members_[k]);
       const std::lock_guard<std::mutex> lock(mutex_);
       ++done_;
-      if (options_.finished) options_.finished(entries_[index], done_);
+      if (options_.finished) options_.finished(entries_[k], done_);
     });
     return std::move(entries_);
   }

@@ -51,21 +51,19 @@ PlacedChain placed(const LegChain& chain, const Vector3d& q) {
   PlacedChain out;
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   for (int j = 0; j < 3; ++j) {
-    const auto at = static_cast<std::size_t>(j);
     const Vector3d& axis = chain.joint(j).axis;
     frame = frame * chain.place(j);
     if (chain.slides(j))
       frame.translation() += q(j) * (frame.linear() * axis);
     else
       frame.linear() = frame.linear() * Eigen::AngleAxisd(q(j), axis).toRotationMatrix();
-    out.axes[at] = frame.linear() * axis;
-    out.anchors[at] = frame.translation();
-    out.links[static_cast<std::size_t>(chain.linkOf(j))] = frame;
+    out.axes[j] = frame.linear() * axis;
+    out.anchors[j] = frame.translation();
+    out.links[chain.linkOf(j)] = frame;
   }
   out.tip = frame * chain.tip;
   for (int j = 0; j < 3; ++j) {
-    const auto at = static_cast<std::size_t>(j);
-    out.J.col(j) = chain.slides(j) ? out.axes[at] : out.axes[at].cross(Vector3d(out.tip - out.anchors[at]));
+    out.J.col(j) = chain.slides(j) ? out.axes[j] : out.axes[j].cross(Vector3d(out.tip - out.anchors[j]));
   }
   return out;
 }

@@ -45,8 +45,8 @@ struct LegChain {
   int linkOf(int j) const { return j < row.joints_of_proximal ? 0 : 1; }
   /// Returns whether the link follows the j-th joint at once, as it does the last of its own.
   bool movesLink(int j) const { return j + 1 == firstOf(linkOf(j)) + jointsOf(linkOf(j)); }
-  bool slides(int j) const { return ursula::slides(row.coordinates[static_cast<std::size_t>(j)]); }
-  const LegJoint& joint(int j) const { return joints[static_cast<std::size_t>(j)]; }
+  bool slides(int j) const { return ursula::slides(row.coordinates[j]); }
+  const LegJoint& joint(int j) const { return joints[j]; }
   /// Returns the j-th joint's frame at zero in the frame before it; the first one's is in B.
   Eigen::Isometry3d place(int j) const;
 };

@@ -106,7 +106,7 @@ class HelixKernel {
     const S s = t / duration_;
     S rise(0), rate(0), acceleration(0);
     for (int k = 5; k >= 1; --k) {
-      const S& coefficient = coefficients_[static_cast<std::size_t>(k)];
+      const S& coefficient = coefficients_[k];
       rise = (rise + coefficient) * s;
       rate = rate * s + k * coefficient;
       if (k >= 2) acceleration = acceleration * s + k * (k - 1) * coefficient;

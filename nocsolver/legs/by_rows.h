@@ -12,7 +12,7 @@ struct ByRows {
   static Vector3<S> rates(const LegModel<S>&, const LegState<S>& at, const Vector3<S>& v_B) {
     Vector3<S> out;
     for (int j = 0; j < 3; ++j) {
-      const JacobianRow<S>& row = at.row[static_cast<std::size_t>(j)];
+      const JacobianRow<S>& row = at.row[j];
       out(j) = row.n.dot(v_B) / row.A;
     }
     return out;
@@ -24,7 +24,7 @@ struct ByRows {
                                   const Vector3<S>& v_B, const Vector3<S>& a_B) {
     Vector3<S> out;
     for (int j = 0; j < 3; ++j) {
-      const JacobianRow<S>& row = at.row[static_cast<std::size_t>(j)];
+      const JacobianRow<S>& row = at.row[j];
       const S bias = row.n_dot.dot(v_B) - row.A_dot * rate(j);
       out(j) = (row.n.dot(a_B) + bias) / row.A;
     }

@@ -29,7 +29,7 @@ template <class S>
 struct MachineParameters {
   explicit MachineParameters(const Manipulator& manipulator);
 
-  std::array<LegModel<S>, leg_count> legs;
+  PerLeg<LegModel<S>> legs;
   int legs_in_all;
   Motors motors;
   Vector3<S> gravity;  ///< g, in B

@@ -53,13 +53,13 @@ MachineParameters<S>::MachineParameters(const Manipulator& manipulator)
       I_M(manipulator.platform().inertia.cast<S>()),
       length(0) {
   for (int i = 0; i < legs_in_all; ++i) {
-    LegModel<S>& leg = this->legs[static_cast<std::size_t>(i)];
+    LegModel<S>& leg = this->legs[i];
     leg = ursula::legs::modelOf<S>(manipulator.leg(i));
     length = std::max({length, S(leg.b.norm()), leg.l, leg.s});
   }
   for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = motors[static_cast<std::size_t>(m)];
-    this->legs[static_cast<std::size_t>(motor.leg)].motor[static_cast<std::size_t>(motor.joint)] = m;
+    const Motor& motor = motors[m];
+    this->legs[motor.leg].motor[motor.joint] = m;
   }
 }
 

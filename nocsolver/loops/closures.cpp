@@ -43,7 +43,7 @@ Closures::Closures(const Mechanism& mechanism, const LoopTree& tree) : length_(m
     cut.first = rows_;
     rows_ += rowsOf(joint.kind);
     cuts_.push_back(cut);
-    joint_of_row_.resize(static_cast<std::size_t>(rows_), j);
+    joint_of_row_.resize(rows_, j);
   }
 }
 

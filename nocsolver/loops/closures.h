@@ -15,7 +15,7 @@ class Closures {
 
   int rows() const { return rows_; }
   /// Returns the joint of a row.
-  std::size_t jointOf(int row) const { return joint_of_row_[static_cast<std::size_t>(row)]; }
+  std::size_t jointOf(int row) const { return joint_of_row_[row]; }
 
   /// g of the placed frames.
   void errors(const Frames& frames, VectorXd& g) const;

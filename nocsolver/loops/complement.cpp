@@ -56,7 +56,7 @@ MatrixXd PassiveRates::solve(const MatrixXd& y) const {
   const auto n = static_cast<Eigen::Index>(passive_.size());
   if (n == 0 || y.rows() == 0) return MatrixXd::Zero(n, y.cols());
   MatrixXd out = factors_.solve(y);
-  for (Eigen::Index k = 0; k < n; ++k) out.row(k) *= scale_(passive_[static_cast<std::size_t>(k)]);
+  for (Eigen::Index k = 0; k < n; ++k) out.row(k) *= scale_(passive_[k]);
   return out;
 }
 
@@ -68,7 +68,7 @@ MatrixXd PassiveRates::kernel(int rates) const {
   MatrixXd own = MatrixXd::Identity(n, n);
   if (rank_ > 0) own = factors_.colsPermutation() * MatrixXd(factors_.matrixZ().adjoint());
   for (Eigen::Index k = 0; k < n; ++k) {
-    const int rate = passive_[static_cast<std::size_t>(k)];
+    const int rate = passive_[k];
     out.row(rate) = scale_(rate) * own.row(k).rightCols(free);
   }
   return out;

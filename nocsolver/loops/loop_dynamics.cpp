@@ -126,7 +126,7 @@ MatrixXd LoopSolver::inertia(const LoopWork& work) const {
   frames.place(work.pose);
   frames.move(work.u, work.u_dot);
   MatrixXd rotors = MatrixXd::Zero(own.tree.rate_count, own.tree.rate_count);
-  for (int k = 0; k < own.tree.rate_count; ++k) rotors(k, k) = own.loads[loops::index(k)].rotor;
+  for (int k = 0; k < own.tree.rate_count; ++k) rotors(k, k) = own.loads[k].rotor;
   VectorXd ignored = VectorXd::Zero(own.tree.rate_count);
   own.addCutLoads(frames, ignored, &rotors);
   MatrixXd I = work.N.transpose() * rotors * work.N;

@@ -92,7 +92,7 @@ void LoopSolver::Impl::findFreedoms(const LoopPose& pose, LoopFreedoms& out, std
   // What moves in the kernel without a body that weighs anything is idle as well.
   idle = found;
   for (const RestingSpin& spin : found)
-    for (const std::size_t b : lumps[loops::index(spin.element)].bodies) out.idle.push_back(mechanism.bodies()[b].name);
+    for (const std::size_t b : lumps[spin.element].bodies) out.idle.push_back(mechanism.bodies()[b].name);
   if (out.free > 0) out.free_joints = movers(mechanism, tree, Z, scale);
   MatrixXd scaled = G;
   for (int k = 0; k < tree.rate_count; ++k) scaled.col(k) *= scale(k);
@@ -102,13 +102,12 @@ void LoopSolver::Impl::findFreedoms(const LoopPose& pose, LoopFreedoms& out, std
   if (out.contradicted <= 0) return;
   // A motor fights if the passive joints cannot give way to it: what G_p x = −G_a leaves.
   for (int k = 0; k < motors(); ++k) {
-    const int rate = tree.rate_of_motor[loops::index(k)];
+    const int rate = tree.rate_of_motor[k];
     const VectorXd wanted = G.col(rate);
     const MatrixXd x = own.solve(-wanted);
     VectorXd left = wanted;
     for (std::size_t i = 0; i < passive.size(); ++i) left += G.col(passive[i]) * x(static_cast<Eigen::Index>(i), 0);
-    if (left.norm() > negligible * std::max(1.0, wanted.norm()))
-      out.fighting.push_back(mechanism.motor(loops::index(k)).name);
+    if (left.norm() > negligible * std::max(1.0, wanted.norm())) out.fighting.push_back(mechanism.motor(k).name);
   }
 }
 

@@ -45,8 +45,8 @@ void LoopSolver::Impl::complement(const Frames& frames, const MatrixXd& G, const
   N.setZero(tree.rate_count, motors());
   MatrixXd G_a(G.rows(), motors());
   for (int k = 0; k < motors(); ++k) {
-    G_a.col(k) = G.col(tree.rate_of_motor[loops::index(k)]);
-    N(tree.rate_of_motor[loops::index(k)], k) = 1;
+    G_a.col(k) = G.col(tree.rate_of_motor[k]);
+    N(tree.rate_of_motor[k], k) = 1;
   }
   const MatrixXd own = solver.solve(-G_a);  // (a)
   for (std::size_t i = 0; i < passive.size(); ++i) N.row(passive[i]) = own.row(static_cast<Eigen::Index>(i));
@@ -66,8 +66,7 @@ VectorXd LoopSolver::Impl::bias(const Frames& frames, const PassiveRates& solver
 void LoopSolver::Impl::fill(const MotorMotion& motion, const LoopPose& near, Frames& frames, LoopWork& work) const {
   if (work.u.size() != tree.rate_count) work = LoopWork();  // it was another mechanism's
   work.pose = near;
-  for (int k = 0; k < motors(); ++k)
-    work.pose.q(tree.rate_of_motor[loops::index(k)]) = motion.q(k) - mechanism.motor(loops::index(k)).position;
+  for (int k = 0; k < motors(); ++k) work.pose.q(tree.rate_of_motor[k]) = motion.q(k) - mechanism.motor(k).position;
   PassiveRates solver = rates;
   const double moved = close(work.pose, frames, solver, 12);
   work.closing = errorOf(frames, nullptr);
@@ -141,7 +140,7 @@ void LoopMotion::follow(double from, double to, int depth) {
 
 const LoopPose& LoopMotion::near(double t) const {
   const auto after = std::upper_bound(times_.begin() + 1, times_.end(), t);
-  return poses_[static_cast<std::size_t>(after - times_.begin()) - 1];
+  return poses_[after - times_.begin() - 1];
 }
 
 VectorXd LoopMotion::inverseDynamics(double t, LoopWork& work) const {

@@ -33,9 +33,9 @@ VectorXd scales(const Mechanism& mechanism, const loops::LoopTree& tree) {
 }
 
 std::vector<loops::CoordinateLoad> loadsOf(const loops::LoopTree& tree) {
-  std::vector<loops::CoordinateLoad> out(loops::index(tree.rate_count));
+  std::vector<loops::CoordinateLoad> out(tree.rate_count);
   for (const loops::Element& each : tree.elements)
-    for (int k = 0; k < each.rates(); ++k) out[loops::index(each.first + k)] = each.load;
+    for (int k = 0; k < each.rates(); ++k) out[each.first + k] = each.load;
   return out;
 }
 
@@ -45,7 +45,7 @@ std::vector<Lump> lumpsOf(const Mechanism& mechanism, const loops::LoopTree& tre
     const int element = tree.element_of_body[b];
     if (element < 0) continue;
     const MechanismBody& body = mechanism.bodies()[b];
-    Lump& lump = out[loops::index(element)];
+    Lump& lump = out[element];
     lump.bodies.push_back(b);
     const auto point = [](double m, const Vector3d& r) {
       return Matrix3d(m * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose()));
@@ -140,8 +140,8 @@ void LoopSolver::Impl::assemble() {
   gap = errorOf(frames, nullptr);
   constexpr double closed = 1e-6, most = 1e-7;
   // What the file closes to its digits is closed by the passive joints; an open one by all, with least movement.
-  std::vector<int> all(loops::index(tree.rate_count));
-  for (int k = 0; k < tree.rate_count; ++k) all[loops::index(k)] = k;
+  std::vector<int> all(tree.rate_count);
+  for (int k = 0; k < tree.rate_count; ++k) all[k] = k;
   PassiveRates solver(gap > closed ? all : passive, scale);
   MatrixXd G(closures.rows(), tree.rate_count);
   for (int k = 0; k < 30; ++k) {  // the rank may change while a gap closes
@@ -173,8 +173,7 @@ bool LoopSolver::Impl::step(const VectorXd& from, const VectorXd& to, LoopPose& 
   if (!solver.factorise(G)) return false;
   complement(frames, G, solver, N);
   VectorXd predicted = N * (to - from);
-  for (int k = 0; k < motors(); ++k)
-    predicted(tree.rate_of_motor[loops::index(k)]) = to(k) - next.q(tree.rate_of_motor[loops::index(k)]);
+  for (int k = 0; k < motors(); ++k) predicted(tree.rate_of_motor[k]) = to(k) - next.q(tree.rate_of_motor[k]);
   const double size = predicted.cwiseQuotient(scale).cwiseAbs().maxCoeff();
   if (size > most_turn) return false;
   loops::advance(tree, predicted, next);
@@ -195,7 +194,7 @@ double LoopSolver::assemblyGap() const { return impl_->gap; }
 VectorXd LoopSolver::motorCoordinates(const LoopPose& pose) const {
   VectorXd out(impl_->motors());
   for (int k = 0; k < impl_->motors(); ++k)
-    out(k) = pose.q(impl_->tree.rate_of_motor[loops::index(k)]) + impl_->mechanism.motor(loops::index(k)).position;
+    out(k) = pose.q(impl_->tree.rate_of_motor[k]) + impl_->mechanism.motor(k).position;
   return out;
 }
 
@@ -211,8 +210,8 @@ void LoopSolver::moveTo(const VectorXd& q, LoopPose& pose) const {
   const Impl& own = *impl_;
   VectorXd from(own.motors()), to(own.motors());
   for (int k = 0; k < own.motors(); ++k) {
-    from(k) = pose.q(own.tree.rate_of_motor[loops::index(k)]);
-    to(k) = q(k) - own.mechanism.motor(loops::index(k)).position;
+    from(k) = pose.q(own.tree.rate_of_motor[k]);
+    to(k) = q(k) - own.mechanism.motor(k).position;
   }
   double done = 0, share = 1;
   while (done < 1) {
@@ -226,7 +225,7 @@ void LoopSolver::moveTo(const VectorXd& q, LoopPose& pose) const {
     if (share < least) {
       LoopPose tried = pose;
       for (int k = 0; k < own.motors(); ++k)
-        tried.q(own.tree.rate_of_motor[loops::index(k)]) = from(k) + std::min(1.0, done + 0.02) * (to(k) - from(k));
+        tried.q(own.tree.rate_of_motor[k]) = from(k) + std::min(1.0, done + 0.02) * (to(k) - from(k));
       own.refuse(tried, "the loops cannot follow the motors");
     }
   }

@@ -1,7 +1,7 @@
 #include "nocsolver/loops/loop_state.h"
 
 namespace ursula::loops {
-const FrameState& Frames::at(int element) const { return element < 0 ? ground_ : frames_[index(element)]; }
+const FrameState& Frames::at(int element) const { return element < 0 ? ground_ : frames_[element]; }
 
 Eigen::Isometry3d Frames::displacement(int element) const {
   Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
@@ -79,9 +79,9 @@ PointMotion Frames::pointOf(int element, const Vector3d& reference) const {
 void Frames::addColumns(int element, const Vector3d& point, double sign, Eigen::Ref<MatrixXd> angular,
                         Eigen::Ref<MatrixXd> linear) const {
   if (element < 0) return;
-  for (const int e : tree_->path_to[index(element)]) {
-    const Element& step = tree_->elements[index(e)];
-    const FrameState& frame = frames_[index(e)];
+  for (const int e : tree_->path_to[element]) {
+    const Element& step = tree_->elements[e];
+    const FrameState& frame = frames_[e];
     if (step.kind == ElementKind::slide) {
       linear.col(step.first) += sign * frame.axis;
       continue;

@@ -11,8 +11,6 @@ namespace ursula::loops {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-inline std::size_t index(Eigen::Index i) { return static_cast<std::size_t>(i); }
-
 /// A configuration of the tree: displacements from the reference pose, rad or m, by rate; balls have quaternions.
 struct LoopPose {
   VectorXd q;

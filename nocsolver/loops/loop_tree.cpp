@@ -99,7 +99,7 @@ int addJoint(LoopTree& tree, const MechanismJoint& joint, std::size_t index, boo
       break;
     case JointKind::universal:
       for (const int k : reversed ? std::array<int, 2>{1, 0} : std::array<int, 2>{0, 1})
-        add(ElementKind::turn, joint.axis[static_cast<std::size_t>(k)], k);
+        add(ElementKind::turn, joint.axis[k], k);
       break;
     case JointKind::ball:
       add(ElementKind::ball, Vector3d::Zero(), 0);
@@ -147,8 +147,7 @@ LoopTree::LoopTree(const Mechanism& mechanism) : element_of_body(mechanism.bodie
   for (std::size_t j = 0; j < joints.size(); ++j)
     if (in_tree[j] == 0 && joints[j].kind != JointKind::free) cut.push_back(j);
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    path_to.push_back(elements[e].before < 0 ? std::vector<int>()
-                                             : path_to[static_cast<std::size_t>(elements[e].before)]);
+    path_to.push_back(elements[e].before < 0 ? std::vector<int>() : path_to[elements[e].before]);
     path_to.back().push_back(static_cast<int>(e));
   }
   for (const std::size_t motor : mechanism.motors()) {

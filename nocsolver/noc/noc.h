@@ -22,13 +22,13 @@ using TwistShaping = Eigen::Matrix<S, 6 * body_count, motor_count>;
 
 /// Inertia tensors of all bodies about their mass centres, in B.
 template <class S>
-using BodyTensors = std::array<Matrix3<S>, body_count>;
+using BodyTensors = PerBody<Matrix3<S>>;
 
 /// The solver's intermediate results; each thread needs its own. Its size is fixed, so nothing is allocated.
 template <class S>
 struct NocWorkspace {
   Matrix3<S> Q;  ///< of the platform
-  std::array<LegState<S>, leg_count> legs;
+  PerLeg<LegState<S>> legs;
   Vector6<S> A;                                  ///< diagonal of A (23), one row per motor
   Matrix6<S> B;                                  ///< (23), rows [Qb × n; n] with n of length 1
   Eigen::PartialPivLU<Matrix6<S>> B_transposed;  ///< factors of Bᵀ, its moment rows divided by the length

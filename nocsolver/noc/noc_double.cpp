@@ -1,4 +1,4 @@
-#include "nocsolver/noc/noc_joints_impl.h"
+#include "nocsolver/noc/noc_impl.h"
 
 namespace ursula {
 template class Noc<double>;

@@ -83,7 +83,7 @@ bool isIdleAbout(const WeldedBodies& weld, const Vector3d& line, const Vector3d&
 
 }  // namespace
 
-JointRowNow at(const JointRow& row, const WeldState& a, const WeldState& b) {
+JointRowNow rowNow(const JointRow& row, const WeldState& a, const WeldState& b) {
   JointRowNow out;
   if (row.kind == Kind::point) setPoint(row, a, b, out);
   if (row.kind == Kind::dot) setDot(row, a, b, out);
@@ -92,7 +92,7 @@ JointRowNow at(const JointRow& row, const WeldState& a, const WeldState& b) {
 }
 
 double valueOf(const JointCoordinate& coordinate, const WeldState& a, const WeldState& b, double near) {
-  if (coordinate.row.kind == Kind::point) return coordinate.joint->position + at(coordinate.row, a, b).value;
+  if (coordinate.row.kind == Kind::point) return coordinate.joint->position + rowNow(coordinate.row, a, b).value;
   const double angle = coordinate.joint->position + angleOf(coordinate, a, b);
   return angle + 2 * pi * std::round((near - angle) / (2 * pi));
 }
@@ -129,7 +129,7 @@ std::vector<JointCoordinate> coordinatesOf(const Mechanism& mechanism, std::size
     JointRow row = rowBetween(mechanism, j, welded, is_linear ? Kind::point : Kind::turn);
     row.is_on_b = !is_linear && (!has_axes || k == 1);
     row.along = has_axes
-                    ? joint.axis[static_cast<std::size_t>(k)]
+                    ? joint.axis[k]
                     : Vector3d(mechanism.bodies()[row.is_on_b ? joint.child : joint.parent].frame.linear().col(k % 3));
     if (row.is_on_b && has_axes) row.along = joint.turn.transpose() * row.along;
     out.push_back({&joint, k, row});

@@ -57,7 +57,7 @@ struct JointRowNow {
   Vector6d of_a = Vector6d::Zero(), of_b = Vector6d::Zero();
   double bias = 0;
 };
-JointRowNow at(const JointRow& row, const WeldState& a, const WeldState& b);
+JointRowNow rowNow(const JointRow& row, const WeldState& a, const WeldState& b);
 
 /// A coordinate of a motor or of a loaded joint.
 struct JointCoordinate {

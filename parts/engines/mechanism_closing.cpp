@@ -44,7 +44,7 @@ MechanismClosing::MechanismClosing(const Mechanism& mechanism, const WeldedMecha
   for (std::size_t i = 0; i < rows_.size(); ++i)
     if (rows_[i].kind == JointRow::Kind::point) row_scale_(static_cast<Eigen::Index>(i)) = length;
   for (Eigen::Index k = 0; k < motorCount(); ++k)
-    if (mechanism.motor(static_cast<std::size_t>(k)).slides()) row_scale_(rowCount() + k) = length;
+    if (mechanism.motor(k).slides()) row_scale_(rowCount() + k) = length;
   column_scale_ = Eigen::VectorXd::Ones(speeds.count());
   for (Eigen::Index i = 0; i < speeds.count(); ++i)
     if (speeds.isLinear(i)) column_scale_(i) = length;
@@ -53,7 +53,7 @@ MechanismClosing::MechanismClosing(const Mechanism& mechanism, const WeldedMecha
 }
 
 MechanismClosing::Form MechanismClosing::formOf(const JointRow& row, bool with_bias) const {
-  const JointRowNow now = at(row, speeds_.state(row.a), speeds_.state(row.b));
+  const JointRowNow now = rowNow(row, speeds_.state(row.a), speeds_.state(row.b));
   Form out{Eigen::VectorXd::Zero(speeds_.count()), now.value, now.bias};
   speeds_.addRow(row.a, now.of_a, out.J);
   speeds_.addRow(row.b, now.of_b, out.J);
@@ -75,7 +75,7 @@ Eigen::MatrixXd MechanismClosing::allRows(Eigen::Index motors) const {
   Eigen::MatrixXd out(rowCount() + motors, speeds_.count());
   for (Eigen::Index i = 0; i < out.rows(); ++i) {
     const auto of_motor = static_cast<std::size_t>(std::max<Eigen::Index>(0, i - rowCount()));
-    const Form form = i < rowCount() ? formOf(rows_[static_cast<std::size_t>(i)], false) : formOf(of_motor, false);
+    const Form form = i < rowCount() ? formOf(rows_[i], false) : formOf(of_motor, false);
     out.row(i) = form.J.cwiseProduct(column_scale_).transpose() / row_scale_(i);
   }
   return out;
@@ -83,15 +83,15 @@ Eigen::MatrixXd MechanismClosing::allRows(Eigen::Index motors) const {
 
 Eigen::VectorXd MechanismClosing::motorValues() const {
   Eigen::VectorXd out(motorCount());
-  for (Eigen::Index k = 0; k < out.size(); ++k) out(k) = formOf(static_cast<std::size_t>(k), false).value;
+  for (Eigen::Index k = 0; k < out.size(); ++k) out(k) = formOf(k, false).value;
   return out;
 }
 
 Eigen::VectorXd MechanismClosing::errors(const Eigen::VectorXd* target) const {
   Eigen::VectorXd out(rowCount() + (target != nullptr ? target->size() : 0));
   for (Eigen::Index i = 0; i < rowCount(); ++i) {
-    const JointRow& row = rows_[static_cast<std::size_t>(i)];
-    out(i) = at(row, speeds_.state(row.a), speeds_.state(row.b)).value;
+    const JointRow& row = rows_[i];
+    out(i) = rowNow(row, speeds_.state(row.a), speeds_.state(row.b)).value;
   }
   if (target != nullptr) out.tail(target->size()) = motorValues() - *target;
   return out.cwiseQuotient(row_scale_.head(out.size()));
@@ -102,7 +102,7 @@ const std::string& MechanismClosing::worstJoint() const {
   if (rows_.empty()) return none;
   Eigen::Index worst = 0;
   errors(nullptr).cwiseAbs().maxCoeff(&worst);
-  return mechanism_.joints()[rows_[static_cast<std::size_t>(worst)].joint].name;
+  return mechanism_.joints()[rows_[worst].joint].name;
 }
 
 bool MechanismClosing::newton(const Eigen::VectorXd& target) {
@@ -165,10 +165,8 @@ void MechanismClosing::place(const MotorMotion& motion, Bias bias) {
   right.tail(motorCount()) = motion.qdot;
   u_ = solved(right);
   speeds_.setSpeeds(u_);
-  for (Eigen::Index i = 0; i < rowCount(); ++i)
-    right(i) = bias == Bias::kept ? -formOf(rows_[static_cast<std::size_t>(i)], true).bias : 0;
-  for (Eigen::Index k = 0; k < motorCount(); ++k)
-    right(rowCount() + k) = motion.qddot(k) - formOf(static_cast<std::size_t>(k), true).bias;
+  for (Eigen::Index i = 0; i < rowCount(); ++i) right(i) = bias == Bias::kept ? -formOf(rows_[i], true).bias : 0;
+  for (Eigen::Index k = 0; k < motorCount(); ++k) right(rowCount() + k) = motion.qddot(k) - formOf(k, true).bias;
   u_dot_ = solved(right);
 }
 
@@ -209,7 +207,7 @@ Eigen::VectorXd MechanismClosing::leastEfforts(const Eigen::VectorXd& f) const {
 Eigen::VectorXd MechanismClosing::atMotors(const Eigen::VectorXd& f) const {
   Eigen::VectorXd out(motorCount());
   for (Eigen::Index k = 0; k < out.size(); ++k) {
-    const JointCoordinate& c = coordinates_[static_cast<std::size_t>(k)];
+    const JointCoordinate& c = coordinates_[k];
     const auto own = speeds_.own(c.row.joint, c.index);
     if (!own) throw std::domain_error(fmt::format("{} is no coordinate of its own", c.joint->name));
     out(k) = own->sign * f(own->speed);
@@ -225,7 +223,7 @@ void MechanismClosing::take(const Eigen::VectorXd& u) {
 
 Eigen::VectorXd MechanismClosing::onSpeeds(const Eigen::VectorXd& efforts) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(speeds_.count());
-  for (Eigen::Index k = 0; k < efforts.size(); ++k) out += efforts(k) * formOf(static_cast<std::size_t>(k), false).J;
+  for (Eigen::Index k = 0; k < efforts.size(); ++k) out += efforts(k) * formOf(k, false).J;
   return out;
 }
 

@@ -71,7 +71,7 @@ Check judgeKernel(const Kernel& kernel, const FastSamples& fast, const std::vect
     }
     if (wrong_part.empty()) wrong_part = partText(wrong, found.size());
   }
-  const auto setOf = [&](int where) { return nameOf(fast.answers[static_cast<std::size_t>(where)].set); };
+  const auto setOf = [&](int where) { return nameOf(fast.answers[where].set); };
   return judgedShown({kernel.check, unit, std::max(size, along), 0, size, along}, worst, units,
                      {"twice the rounding of the NOC: both sides round",
                       fmt::format("{} by the fast kernels against the NOC, at {} instants, with {}", kernel.what,

@@ -73,9 +73,9 @@ FastSamples runFast(const Scenario& scenario, const Units& natural, const std::v
                     const FastFault& fault) {
   const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
   const FrameChange si = inSi(*scenario.manipulator, natural);
-  auto model = kernel::machineModel(MachineParameters<double>(si.of(*scenario.manipulator)));
+  auto model = kernel::machineModel(MachineParameters<double>(si.transformed(*scenario.manipulator)));
   if (fault.model) fault.model(model);
-  const std::shared_ptr<const Load> load = si.of(scenario.load);
+  const std::shared_ptr<const Load> load = si.transformed(scenario.load);
   FastSamples out;
   Questions asked;
   try {
@@ -86,8 +86,8 @@ FastSamples runFast(const Scenario& scenario, const Units& natural, const std::v
       out.torques.push_back(noc.torques(motion));
       out.efforts.push_back(otherTorques(out.torques.back()));
       out.accelerations.push_back(noc.accelerations(motion, out.efforts.back()));
-      asked.motions.push_back(si.of(motion));
-      asked.efforts.push_back(si.of(out.efforts.back()));
+      asked.motions.push_back(si.transformed(motion));
+      asked.efforts.push_back(si.transformed(out.efforts.back()));
       if (load) asked.loads.push_back(loadAtP(load.get(), asked.motions.back()));
     }
     for (const InstructionSet set :

@@ -38,9 +38,7 @@ class Solver {
   JointVariables<S> accelerations(const Workspace<S>& work) const { return noc_.accelerations(work); }
 
   /// How near leg i is to poses where its rates are undetermined. Needs displacements.
-  LegMargins<S> margins(const Workspace<S>& work, int i) const {
-    return work.legs[static_cast<std::size_t>(i)].margins;
-  }
+  LegMargins<S> margins(const Workspace<S>& work, int i) const { return work.legs[i].margins; }
 
   /// A, B of (23) and the factors of Bᵀ, from the displacements in `work`.
   void jacobians(const Motion<S>& motion, Workspace<S>& work) const { noc_.jacobians(motion, work); }

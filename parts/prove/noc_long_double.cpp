@@ -1,7 +1,7 @@
 // The NOC's formulas in long double, to measure rounding in doubles.
 
 #include "nocsolver/legs/leg_model_impl.h"
-#include "nocsolver/noc/noc_joints_impl.h"
+#include "nocsolver/noc/noc_impl.h"
 #include "parts/prove/effect.h"
 #include "validation/subject/noc_subject_impl.h"
 

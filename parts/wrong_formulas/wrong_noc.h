@@ -53,7 +53,7 @@ class WrongNoc : public Noc<S> {
 
  private:
   bool has(FormulaError error) const { return errors_.has(error); }
-  const LegModel<S>& leg(int i) const { return this->machine().legs[static_cast<std::size_t>(i)]; }
+  const LegModel<S>& leg(int i) const { return this->machine().legs[i]; }
 
   WithFormulaErrors errors_;
 };

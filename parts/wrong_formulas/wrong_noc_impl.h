@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "nocsolver/noc/noc_joints_impl.h"
+#include "nocsolver/noc/noc_impl.h"
 #include "parts/wrong_formulas/wrong_legs_impl.h"
 #include "parts/wrong_formulas/wrong_noc.h"
 
@@ -81,7 +81,7 @@ Vector3<S> WrongNoc<S>::jointAccelerations(int i, const LegState<S>& at, const V
   if (leg(i).kind == LegKind::URS) {
     wrong::accelerateUrs(leg(i), at, rate, v_B, a_B, errors_, out);
   } else if (has(FormulaError::drop_bias)) {
-    for (int j = 0; j < 3; ++j) out(j) = at.row[legs::at(j)].n.dot(a_B) / at.row[legs::at(j)].A;
+    for (int j = 0; j < 3; ++j) out(j) = at.row[j].n.dot(a_B) / at.row[j].A;
   }
   return out;
 }
@@ -93,7 +93,7 @@ JointVariables<S> WrongNoc<S>::angles(const NocWorkspace<S>& work) const {
   if (!has(FormulaError::eq14b)) return q;
   for (int i = 0; i < this->machine().legs_in_all; ++i) {
     if (leg(i).kind != LegKind::URS) continue;
-    const LegState<S>& at = work.legs[legs::at(i)];
+    const LegState<S>& at = work.legs[i];
     q.psi(i) = atan2(S(leg(i).s * at.sine[2]), S(leg(i).l - leg(i).s * at.cosine[2])) +
                atan2(S(at.AB.cross(leg(i).u).norm()), S(-at.AB.dot(leg(i).u)));
   }
@@ -107,9 +107,9 @@ Matrix6<S> WrongNoc<S>::platformShapingRate(const Motion<S>& motion, const NocWo
   if (!has(FormulaError::eq26_b_dot)) return T_dot;
   Matrix6<S> more = Matrix6<S>::Zero();  // of Ḃ, by b in the place of Q b
   for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = this->machine().motors[legs::at(m)];
-    const LegState<S>& at = work.legs[legs::at(motor.leg)];
-    const Vector3<S> n = at.row[legs::at(motor.joint)].n.normalized();
+    const Motor& motor = this->machine().motors[m];
+    const LegState<S>& at = work.legs[motor.leg];
+    const Vector3<S> n = at.row[motor.joint].n.normalized();
     more.row(m).template head<3>() = motion.omega.cross(Vector3<S>(leg(motor.leg).b - at.Qb)).cross(n).transpose();
   }
   Matrix6<S> change = work.B_transposed.transpose().solve(Matrix6<S>(more * this->platformShaping(work)));
@@ -149,7 +149,7 @@ template <class S>
 typename WrongNoc<S>::Rates WrongNoc<S>::columnRates(int i, const LegState<S>& at, const Matrix6<S>& T_P) const {
   Rates out = Base::columnRates(i, at, T_P);
   for (int j = 0; j < 3; ++j) {
-    const bool own = leg(i).motor[legs::at(j)] >= 0;
+    const bool own = leg(i).motor[j] >= 0;
     if (has(own ? FormulaError::drop_own_column : FormulaError::drop_passive_rates)) out.row(j).setZero();
   }
   return out;
@@ -184,8 +184,8 @@ BodyTensors<S> WrongNoc<S>::tensors(const NocWorkspace<S>& work) const {
   BodyTensors<S> out = Base::tensors(work);
   if (has(FormulaError::untwisted_tensors))
     for (int i = 0; i < this->machine().legs_in_all; ++i) {
-      out[legs::at(i)] = leg(i).I_1;
-      out[legs::at(leg_count + i)] = leg(i).I_2;
+      out[i] = leg(i).I_1;
+      out[leg_count + i] = leg(i).I_2;
     }
   if (has(FormulaError::untwisted_platform)) out.back() = this->machine().I_M;
   if (has(FormulaError::mass_for_inertia)) out.back().setZero();

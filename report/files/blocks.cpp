@@ -75,7 +75,7 @@ class Stream {
       : table_(table), options_(options), sink_(sink) {}
 
   void run() {
-    const std::size_t jobs = static_cast<std::size_t>(options_.jobs);
+    const std::size_t jobs = options_.jobs;
     for (std::size_t first = 0; first < table_.blocks; first += blocks_of_group * jobs) {
       blocks_.assign(std::min(blocks_of_group * jobs, table_.blocks - first), {});
       each([&](std::size_t i) { make(first + i, blocks_[i]); });
@@ -92,7 +92,7 @@ class Stream {
 
   template <class Work>
   void each(const Work& work) {
-    inParallel(options_.jobs, static_cast<int>(blocks_.size()), [&](int i) { work(static_cast<std::size_t>(i)); });
+    inParallel(options_.jobs, static_cast<int>(blocks_.size()), [&](int i) { work(i); });
   }
 
   /// An exception waits for the earlier blocks, so the reported one does not depend on timing.

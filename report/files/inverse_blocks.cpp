@@ -34,8 +34,8 @@ class InverseBlocks {
     const int first = static_cast<int>(k) * rows_of_block, count = std::min(rows_of_block, samples_ - first);
     std::vector<Motion<double>> motions;
     std::vector<Vector6d> loads;
-    motions.reserve(static_cast<std::size_t>(count));
-    loads.reserve(static_cast<std::size_t>(count));
+    motions.reserve(count);
+    loads.reserve(count);
     for (int row = first; row < first + count; ++row) {
       motions.push_back(scenario_.trajectory->at(instantOf(scenario_.trajectory->duration(), row, samples_)));
       loads.push_back(loadAtP(scenario_.load.get(), motions.back()));
@@ -64,9 +64,9 @@ class InverseBlocks {
 void turn(TimeSeries& block, std::array<double, 4>& before) {
   const auto w = std::find(block.names.begin(), block.names.end(), "q_w") - block.names.begin();  // x, y and z follow
   double along = 0;
-  for (std::size_t i = 0; i < 4; ++i) along += before[i] * block.columns[static_cast<std::size_t>(w) + i].front();
+  for (std::size_t i = 0; i < 4; ++i) along += before[i] * block.columns[w + i].front();
   for (std::size_t i = 0; i < 4; ++i) {
-    std::vector<double>& q = block.columns[static_cast<std::size_t>(w) + i];
+    std::vector<double>& q = block.columns[w + i];
     if (along < 0)
       for (double& value : q) value = -value;
     before[i] = q.back();
@@ -78,7 +78,7 @@ void turn(TimeSeries& block, std::array<double, 4>& before) {
 BlockTable inverseBlocks(const Scenario& scenario, int samples) {
   const auto made = std::make_shared<InverseBlocks>(scenario, samples);
   BlockTable table;
-  table.rows = static_cast<std::size_t>(samples);
+  table.rows = samples;
   table.blocks = (table.rows + rows_of_block - 1) / rows_of_block;
   table.make = [made](std::size_t k) { return made->block(k); };
   table.settle = [before = std::array<double, 4>{}](TimeSeries& block) mutable { turn(block, before); };

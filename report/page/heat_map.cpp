@@ -91,13 +91,12 @@ class Panel {
         const int c = colourAt(i, j);
         for (end = i + 1; end < across && colourAt(end, j) == c;) ++end;
         const double wide = w * static_cast<double>(end - i) + overlap;
-        paths[static_cast<std::size_t>(c)] +=
-            fmt::format("M{:.2f} {:.2f}h{:.2f}v{:.2f}h{:.2f}z", x_ + w * static_cast<double>(i),
-                        y_ + panel - h * static_cast<double>(j + 1), wide, h, -wide);
+        paths[c] += fmt::format("M{:.2f} {:.2f}h{:.2f}v{:.2f}h{:.2f}z", x_ + w * static_cast<double>(i),
+                                y_ + panel - h * static_cast<double>(j + 1), wide, h, -wide);
       }
     std::string out;
     for (int c = 0; c <= colours; ++c)
-      if (const std::string& path = paths[static_cast<std::size_t>(c)]; !path.empty())
+      if (const std::string& path = paths[c]; !path.empty())
         out += fmt::format("<path style=\"fill:{}\" shape-rendering=\"crispEdges\" d=\"{}\"/>\n",
                            c == colours ? heat_map_nothing : colour(c), path);
     return out;

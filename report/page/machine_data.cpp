@@ -21,7 +21,7 @@ class TrackTable {
   std::size_t add(const Picture::Track& points) {
     Json numbers = track(points);
     const auto at = std::find(tracks_.begin(), tracks_.end(), numbers);
-    const auto index = static_cast<std::size_t>(at - tracks_.begin());
+    const std::size_t index = at - tracks_.begin();
     if (at == tracks_.end()) tracks_.push_back(std::move(numbers));
     return index;
   }

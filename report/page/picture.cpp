@@ -39,7 +39,7 @@ class LegTracks {
   std::vector<Picture::Joint> joints() const {
     const LegKindRow& row = rowOf(leg_.kind);
     std::vector<Picture::Joint> out;
-    const auto first = static_cast<std::size_t>(row.joints_of_proximal);
+    const std::size_t first = row.joints_of_proximal;
     addJoint(0, first, row.hasCarriage() ? R_ : A_, out);
     addJoint(first, 3, R_, out);
     out.push_back({"ball", B_, {}, false, false});

@@ -96,7 +96,7 @@ void sayEfforts(const std::string& noun, Plot& plot) {
 Motors motorsOf(const ValidationResult& result) {
   if (result.asked && result.asked->manipulator) return result.asked->manipulator->motors();
   Motors out;
-  for (int k = 0; k < motor_count; ++k) out[static_cast<std::size_t>(k)].leg = k;
+  for (int k = 0; k < motor_count; ++k) out[k].leg = k;
   return out;
 }
 

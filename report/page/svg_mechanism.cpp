@@ -90,7 +90,7 @@ std::string motorsNamed(const MechanismPicture& picture, const std::vector<bool>
   std::string out;
   for (const MechanismPicture::Joint& joint : picture.joints) {
     if (joint.motor < 0) continue;
-    const auto k = static_cast<std::size_t>(joint.motor);
+    const std::size_t k = joint.motor;
     const bool is_wrong = k < wrong.size() && wrong[k];
     const std::string text = (is_wrong ? "✗ " : "") + joint.name;
     Eigen::Vector2d at = on.at(placed(picture.bodies[joint.child], joint.at_child, 0)) + Eigen::Vector2d(0, 21);

@@ -64,8 +64,7 @@ std::string quantity(double value, const std::string& unit, int digits) {
   const int highest = small ? 0 : 3;
   if (thousands < -5 || thousands > 3) return plainNumber(value, digits) + joined + pretty;
   const int used = std::min(thousands, highest);
-  return fmt::format("{}{}{}{}", rounded(shown / std::pow(1000.0, used), digits), joined,
-                     prefixes[static_cast<std::size_t>(used + 5)], pretty);
+  return fmt::format("{}{}{}{}", rounded(shown / std::pow(1000.0, used), digits), joined, prefixes[used + 5], pretty);
 }
 
 std::string plainNumber(double value, int digits) {
@@ -82,11 +81,11 @@ std::string powersInPrint(const std::string& text) {
   std::ptrdiff_t from = 0;
   for (std::sregex_iterator at(text.begin(), text.end(), power), none; at != none; ++at) {
     const std::string mantissa = (*at)[1].str() + (*at)[2].str();
-    out += text.substr(static_cast<std::size_t>(from), static_cast<std::size_t>(at->position() - from));
+    out += text.substr(from, at->position() - from);
     out += (mantissa == "1" ? "" : mantissa + joined + "×" + joined) + "10" + superscript(std::stoi((*at)[3]));
     from = at->position() + at->length();
   }
-  return out + text.substr(static_cast<std::size_t>(from));
+  return out + text.substr(from);
 }
 
 namespace {

@@ -50,7 +50,7 @@ std::string histogram(const std::vector<double>& values, double largest) {
   const int most = *std::max_element(counts.begin(), counts.end());
   std::string bars;
   for (int k = 0; k < bins; ++k) {
-    const double high = most > 0 ? 22.0 * counts[static_cast<std::size_t>(k)] / most : 0;
+    const double high = most > 0 ? 22.0 * counts[k] / most : 0;
     bars += fmt::format("<rect x=\"{}\" y=\"{:.1f}\" width=\"8\" height=\"{:.1f}\"/>", 10 * k, 24 - high, high);
   }
   return fmt::format(

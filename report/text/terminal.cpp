@@ -192,7 +192,7 @@ std::string leftOutText(const std::vector<Check>& checks) {
 std::string motorsText(const std::vector<MotorDeviation>& motors, const std::vector<std::string>& names) {
   std::vector<std::vector<std::string>> rows = {{"motor", "off by", "at t", "factor", "offset"}};
   for (const MotorDeviation& motor : motors)
-    rows.push_back({withoutControls(motorName(names, static_cast<std::size_t>(motor.motor))),
+    rows.push_back({withoutControls(motorName(names, motor.motor)),
                     fmt::format("{:.3g} {}", motor.largest, prettyUnit(motor.unit)), fmt::format("{:.4g} s", motor.t),
                     motor.factor ? factorText(*motor.factor) : "",
                     motor.offset ? fmt::format("{:.6g} {}", *motor.offset, prettyUnit(motor.unit)) : ""});

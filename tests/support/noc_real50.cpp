@@ -2,7 +2,7 @@
 
 #include "base/real50.h"
 #include "nocsolver/legs/leg_model_impl.h"
-#include "nocsolver/noc/noc_joints_impl.h"
+#include "nocsolver/noc/noc_impl.h"
 
 namespace ursula {
 template struct MachineParameters<Real50>;

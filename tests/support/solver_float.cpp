@@ -1,7 +1,7 @@
 // The solver in single precision, only for tests.
 
 #include "nocsolver/legs/leg_model_impl.h"
-#include "nocsolver/noc/noc_joints_impl.h"
+#include "nocsolver/noc/noc_impl.h"
 #include "parts/fast/fast_dynamics_impl.h"
 
 namespace ursula {

@@ -155,8 +155,8 @@ TEST_P(ConditioningOf, shapesDoNotDependOnTheFrameChange) {
   const Conditioning here = ConditioningProbe(*scenario_.manipulator, scenario_.load).at(motion);
   FrameChange there = randomFrameChange(17, 3 * here.length, *scenario_.manipulator);
   const auto shapeThere = [&](Rounded quantity) {
-    return ConditioningProbe(there.of(*scenario_.manipulator), there.of(scenario_.load))
-        .at(there.of(motion))
+    return ConditioningProbe(there.transformed(*scenario_.manipulator), there.transformed(scenario_.load))
+        .at(there.transformed(motion))
         .shape(quantity);
   };
   const Units u = there.units;

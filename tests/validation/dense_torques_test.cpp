@@ -103,7 +103,7 @@ TEST_F(Between, theNarrowestPulseSeenIsWhatItSays) {
 /// The result is the same in other units.
 TEST_F(Between, saysSoInSeconds) {
   const FrameChange natural = naturalFrameChange(scenario_);
-  const Scenario there = natural.of(scenario_);
+  const Scenario there = natural.transformed(scenario_);
   const RoundingProfile profile(there, 5);
   const Subject subject = nocSubject(*there.manipulator, there.load);
   const double end = there.trajectory->duration();

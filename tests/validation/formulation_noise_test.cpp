@@ -24,7 +24,7 @@ namespace {
 /// Right formulations spread by at most a tenth of what rounding explains. Over changes of frame, their efforts differ
 /// by at most half of their limit.
 void expectHonest(const Scenario& given, int instants) {
-  const RoundingProfile profile(naturalFrameChange(given).of(given), instants);
+  const RoundingProfile profile(naturalFrameChange(given).transformed(given), instants);
   double spread = 0, apart = 0;
   for (std::size_t q = 0; q < rounded_count; ++q)
     spread = std::max(spread, profile.largestOfOne(static_cast<Rounded>(q)));

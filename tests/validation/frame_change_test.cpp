@@ -55,20 +55,20 @@ class Transformed : public testing::TestWithParam<unsigned> {
 };
 
 TEST_P(Transformed, machineMotionTorquesAndLoadComeBack) {
-  EXPECT_LE(numbersOf(back_.of(there_.of(machine_))).distance(numbersOf(machine_)), room);
-  EXPECT_GT(numbersOf(back_.of(off_.of(machine_))).distance(numbersOf(machine_)), 1e-10);
+  EXPECT_LE(numbersOf(back_.transformed(there_.transformed(machine_))).distance(numbersOf(machine_)), room);
+  EXPECT_GT(numbersOf(back_.transformed(off_.transformed(machine_))).distance(numbersOf(machine_)), 1e-10);
   const Motion<double> motion = randomState(everything(), dice_);
-  EXPECT_LE(numbersOf(back_.of(there_.of(motion))).distance(numbersOf(motion)), room);
-  EXPECT_GT(numbersOf(back_.of(off_.of(motion))).distance(numbersOf(motion)), 1e-10);
+  EXPECT_LE(numbersOf(back_.transformed(there_.transformed(motion))).distance(numbersOf(motion)), room);
+  EXPECT_GT(numbersOf(back_.transformed(off_.transformed(motion))).distance(numbersOf(motion)), 1e-10);
   const Vector6d torques = 1000 * Vector6d::Random();
-  EXPECT_LE(numbersOf(there_.torquesBack(there_.of(torques))).distance(numbersOf(torques)), room);
-  EXPECT_GT(numbersOf(back_.torquesBack(there_.of(torques))).distance(numbersOf(torques)), 0.01);
+  EXPECT_LE(numbersOf(there_.torquesBack(there_.transformed(torques))).distance(numbersOf(torques)), room);
+  EXPECT_GT(numbersOf(back_.torquesBack(there_.transformed(torques))).distance(numbersOf(torques)), 0.01);
   for (const Load::Frame frame : {Load::Frame::base, Load::Frame::platform}) {
     const auto load = tabulatedLoad(frame);
-    EXPECT_LE(numbersOf(*back_.of(there_.of(load))).distance(numbersOf(*load)), room);
-    EXPECT_GT(numbersOf(*back_.of(off_.of(load))).distance(numbersOf(*load)), 1e-10);
+    EXPECT_LE(numbersOf(*back_.transformed(there_.transformed(load))).distance(numbersOf(*load)), room);
+    EXPECT_GT(numbersOf(*back_.transformed(off_.transformed(load))).distance(numbersOf(*load)), 1e-10);
   }
-  EXPECT_EQ(there_.of(std::shared_ptr<const Load>()), nullptr);
+  EXPECT_EQ(there_.transformed(std::shared_ptr<const Load>()), nullptr);
 }
 
 /// A table's slopes are limited along its own axes, so the curve must be turned. Turned rows would give another curve
@@ -76,7 +76,7 @@ TEST_P(Transformed, machineMotionTorquesAndLoadComeBack) {
 TEST_P(Transformed, aTabulatedLoadIsTheSameBetweenItsRows) {
   const auto load = tabulatedLoad(Load::Frame::base);
   const Units& units = there_.units;
-  const auto there = there_.of(load);
+  const auto there = there_.transformed(load);
   const LoadHistory through_rows(there->history->rows());
   double beside = 0;
   for (double t : {-0.5, 0.2, 0.75, 1.5, 1.9, 2.6, 3.5}) {
@@ -119,7 +119,8 @@ TEST_P(Transformed, torquesAreTheSame) {
       const double limit = 2 * ConditioningProbe(machine_, load).at(motion).torqueRounding();
       const Vector6d right = nocSubject(machine_, load).torques(motion);
       EXPECT_LT(limit, 1e-8 * right.cwiseAbs().maxCoeff()) << "the limit says little";
-      const Vector6d found = torquesFrom(there_, there_.of(machine_), there_.of(load), there_.of(motion));
+      const Vector6d found =
+          torquesFrom(there_, there_.transformed(machine_), there_.transformed(load), there_.transformed(motion));
       EXPECT_LE((found - right).cwiseAbs().maxCoeff(), limit);
       EXPECT_NE(found, right) << "nothing was turned";
     }
@@ -176,21 +177,22 @@ TEST_P(Transformed, aFrameChangeThatForgetsOnePartChangesTorques) {
   const double limit = 2 * ConditioningProbe(machine_, load).at(motion).torqueRounding();
   const Vector6d right = nocSubject(machine_, load).torques(motion);
   for (const auto& [what, forget] : forgotten) {
-    ManipulatorParameters wrong = there_.of(machine_).parameters();
+    ManipulatorParameters wrong = there_.transformed(machine_).parameters();
     forget(there_, machine_.parameters(), wrong);
-    const Vector6d found = torquesFrom(there_, Manipulator(wrong), there_.of(load), there_.of(motion));
+    const Vector6d found =
+        torquesFrom(there_, Manipulator(wrong), there_.transformed(load), there_.transformed(motion));
     EXPECT_GT((found - right).cwiseAbs().maxCoeff(), 1000 * limit) << what;
   }
-  Load not_turned = *there_.of(load);
+  Load not_turned = *there_.transformed(load);
   not_turned.frame = Load::Frame::platform;
   const Vector6d found =
-      torquesFrom(there_, there_.of(machine_), std::make_shared<Load>(not_turned), there_.of(motion));
+      torquesFrom(there_, there_.transformed(machine_), std::make_shared<Load>(not_turned), there_.transformed(motion));
   EXPECT_GT((found - right).cwiseAbs().maxCoeff(), 1000 * limit) << "a load in the wrong frame";
 }
 
 TEST_P(Transformed, trajectoriesAreTheMotionsTransformed) {
   const Scenario& here = everything();
-  const Scenario there = there_.of(here);
+  const Scenario there = there_.transformed(here);
   const double time = there_.units.time, duration = here.trajectory->duration();
   EXPECT_DOUBLE_EQ(there.trajectory->duration() * time, duration);
   ASSERT_EQ(there.trajectory->knots().size(), here.trajectory->knots().size());
@@ -199,7 +201,8 @@ TEST_P(Transformed, trajectoriesAreTheMotionsTransformed) {
   for (double share : {0.1, 0.45, 0.9}) {
     const Motion<double> found = there.trajectory->at(share * duration / time);
     EXPECT_EQ(found.t, share * duration / time);
-    EXPECT_LE(numbersOf(back_.of(found)).distance(numbersOf(here.trajectory->at(share * duration))), 10 * room);
+    EXPECT_LE(numbersOf(back_.transformed(found)).distance(numbersOf(here.trajectory->at(share * duration))),
+              10 * room);
     const Motion<Real50> exact = there.trajectory->at(Real50(share * duration / time));
     EXPECT_LE((exact.p.cast<double>() - found.p).norm(), room);
     EXPECT_LE((exact.Q.cast<double>() - found.Q).norm(), room);
@@ -214,8 +217,8 @@ TEST_P(Transformed, subjectsAnswerFromThere) {
   there.origin = there_.origin;
   there.units = there_.units;
   const Subject here = solverOf(everything()), asked = transformed(here, there);
-  const Subject made = nocSubject(there.of(machine_), there.of(everything().load));
-  const Motion<double> motion = there.of(randomState(everything(), dice_));
+  const Subject made = nocSubject(there.transformed(machine_), there.transformed(everything().load));
+  const Motion<double> motion = there.transformed(randomState(everything(), dice_));
   const auto near = [](const Numbers& a, const Numbers& b) { return a.distance(b); };
   EXPECT_LE(near(numbersOf(asked.torques(motion)), numbersOf(made.torques(motion))), 1e-11);
   const KinematicAnswer a = asked.kinematics(motion), b = made.kinematics(motion);
@@ -227,7 +230,7 @@ TEST_P(Transformed, subjectsAnswerFromThere) {
   const Vector6d under = made.accelerations(motion, torques);
   EXPECT_LE((asked.accelerations(motion, torques) - under).norm() / under.norm(), 1e-10);
   const Manipulator lighter = [&] {
-    ManipulatorParameters parameters = there.of(machine_).parameters();
+    ManipulatorParameters parameters = there.transformed(machine_).parameters();
     parameters.platform.mass *= 0.9;
     return Manipulator(parameters);
   }();
@@ -283,8 +286,8 @@ TEST(UnitsOf, areThoseOfChecksAndColumns) {
       {"", 1},        {"1", 1},      {"rad", 1},  {"s", 0.5}, {"1/s", 2}, {"rad/s", 2}, {"rad_s", 2},
       {"rad/s^2", 4}, {"rad_s2", 4}, {"m", 2},    {"m/s", 4}, {"m_s", 4}, {"m/s^2", 8}, {"m_s2", 8},
       {"N", 64},      {"N m", 128},  {"Nm", 128}, {"J", 128}, {"kg", 8}};
-  for (const auto& [unit, size] : sizes) EXPECT_EQ(units.of(unit), size) << unit;
-  EXPECT_THROW(units.of("furlong"), std::invalid_argument);
+  for (const auto& [unit, size] : sizes) EXPECT_EQ(units.sizeOf(unit), size) << unit;
+  EXPECT_THROW(units.sizeOf("furlong"), std::invalid_argument);
 }
 
 }  // namespace

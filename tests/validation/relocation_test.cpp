@@ -34,9 +34,10 @@ void expectExact(const Scenario& scenario, const FrameChange& natural) {
   EXPECT_EQ(natural.turn, Matrix3d::Identity());
   EXPECT_EQ(natural.platform_turn, Matrix3d::Identity());
   const Manipulator& machine = *scenario.manipulator;
-  EXPECT_TRUE(numbersOf(inverse(natural).of(natural.of(machine))) == numbersOf(machine));
+  EXPECT_TRUE(numbersOf(inverse(natural).transformed(natural.transformed(machine))) == numbersOf(machine));
   if (scenario.load) {
-    EXPECT_TRUE(numbersOf(*inverse(natural).of(natural.of(scenario.load))) == numbersOf(*scenario.load));
+    EXPECT_TRUE(numbersOf(*inverse(natural).transformed(natural.transformed(scenario.load))) ==
+                numbersOf(*scenario.load));
   }
   const double length = Solver<double>(machine).length();
   EXPECT_LT(length, 2 * natural.units.length);
@@ -52,7 +53,7 @@ TEST(NaturalFrameChange, losesNoDigitOfAnyShippedMachine) {
     expectExact(scenario, natural);
     EXPECT_EQ(natural.origin, Vector3d::Zero());
     const Motion<double> motion = scenario.trajectory->at(0.3 * scenario.trajectory->duration());
-    EXPECT_TRUE(numbersOf(inverse(natural).of(natural.of(motion))) == numbersOf(motion));
+    EXPECT_TRUE(numbersOf(inverse(natural).transformed(natural.transformed(motion))) == numbersOf(motion));
   }
 }
 

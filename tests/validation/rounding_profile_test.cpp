@@ -47,7 +47,7 @@ bool isOfOneFrame(Rounded quantity) { return quantity == Rounded::direct || quan
 void expectDominance(const Scenario& scenario, unsigned seed, int of = instants) {
   const RoundingProfile profile(scenario, of);
   const double length = at(scenario, profile, 0, of).length;
-  const RoundingProfile elsewhere(randomFrameChange(seed, length, *scenario.manipulator).of(scenario), of);
+  const RoundingProfile elsewhere(randomFrameChange(seed, length, *scenario.manipulator).transformed(scenario), of);
   double least = 1e300;
   for (const Rounded quantity : quantities(profile)) {
     if (isOfOneFrame(quantity)) continue;
@@ -120,7 +120,7 @@ TEST_P(Profile, dominatesTheTrueErrorOfTheSolver) {
 TEST_P(Profile, limitsAreTheSameHoweverTheWorldIsTurned) {
   FrameChange turned;
   turned.turn = Eigen::AngleAxisd(1.1, Vector3d(0.6, -0.64, 0.48)).toRotationMatrix();
-  const Scenario there = turned.of(scenario_);
+  const Scenario there = turned.transformed(scenario_);
   const RoundingProfile a(scenario_, instants), b(there, instants);
   double furthest = 1;
   for (const Rounded quantity : quantities(a)) {

@@ -26,7 +26,7 @@ Vector6d constant(double value) { return Vector6d::Constant(value); }
 /// The record of questions at 0, 1 and 2.
 AskedTorques askedOf(const SimbodyLoop::TorqueHistory& torques) {
   AskedTorques asked;
-  const SimbodyLoop::TorqueHistory listening = asked.of(torques);
+  const SimbodyLoop::TorqueHistory listening = asked.recorded(torques);
   for (double t : {0.0, 1.0, 2.0}) EXPECT_EQ(listening(t), torques(t));
   return asked;
 }
@@ -53,7 +53,7 @@ TEST(AskedTorques, whoeverThrowsIsAskedHimself) {
   const auto zero = [](double) { return constant(0); };
   EXPECT_FALSE(askedOf(zero).sameFrom(throws));
   AskedTorques asked;
-  const SimbodyLoop::TorqueHistory history = throws, listening = asked.of(history);
+  const SimbodyLoop::TorqueHistory history = throws, listening = asked.recorded(history);
   listening(1);
   EXPECT_TRUE(asked.sameFrom(zero));
   EXPECT_THROW(listening(2), std::runtime_error);

@@ -15,7 +15,7 @@
 
 namespace ursula {
 
-/// The inverse of `p`: inverse(p).of(p.of(x)) is x.
+/// The inverse of `p`: inverse(p).transformed(p.transformed(x)) is x.
 inline FrameChange inverse(const FrameChange& p) {
   FrameChange out;
   out.turn = p.turn.transpose();

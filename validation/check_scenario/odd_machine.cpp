@@ -75,7 +75,7 @@ void link(const Link& link, const std::string& key, std::vector<Oddity>& out) {
 void legs(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
   const double base = extent(machine, [](const Leg& leg) { return leg.base_point; });
   for (int i = 0; i < static_cast<int>(machine.legs.size()); ++i) {
-    const Leg& leg = machine.legs[static_cast<std::size_t>(i)];
+    const Leg& leg = machine.legs[i];
     if (!rowOf(leg.kind).hasCarriage())
       link(leg.proximal, legKey(i, "proximal"), out);  // a carriage has no length and never turns
     link(leg.distal, legKey(i, "distal"), out);
@@ -116,7 +116,7 @@ void platform(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
 void units(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
   const double base = extent(machine, [](const Leg& leg) { return leg.base_point; });
   for (int i = 0; i < static_cast<int>(machine.legs.size()); ++i) {
-    const Leg& leg = machine.legs[static_cast<std::size_t>(i)];
+    const Leg& leg = machine.legs[i];
     const bool on_rail = rowOf(leg.kind).hasCarriage();
     const double first = on_rail ? 0 : leg.proximal.length, reach = first + leg.distal.length;
     const double shorter = std::min(first, leg.distal.length), longer = reach - shorter;

@@ -158,9 +158,9 @@ std::vector<NearestOfLeg> nearestOfLegs(const Scenario& scenario) {
     solver.displacements(scenario.trajectory->at(t), work);
     const JointVariables<double> q = solver.angles(work);
     for (int i = 0; i < machine.legCount(); ++i) {
-      NearestOfLeg& nearest = all[static_cast<std::size_t>(i)];
+      NearestOfLeg& nearest = all[i];
       const Leg& leg = machine.leg(i);
-      nearest.sine.include(work.legs[static_cast<std::size_t>(i)].margins.sine, t);
+      nearest.sine.include(work.legs[i].margins.sine, t);
       if (rowOf(leg.kind).isTelescopic()) nearest.stroke.include(typeOf(leg.kind).margin(leg, q, i), t);
     }
   }

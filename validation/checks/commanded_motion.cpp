@@ -50,8 +50,8 @@ struct Stencil {
   Stencil(const Trajectory& trajectory, const Real50& t, const Real50& step_) : step(step_) {
     for (int j = -3; j <= 3; ++j) {
       const Motion<Real50> motion = widest(trajectory, Real50(t + j * step));
-      p[static_cast<std::size_t>(j + 3)] = motion.p;
-      Q[static_cast<std::size_t>(j + 3)] = motion.Q;
+      p[j + 3] = motion.p;
+      Q[j + 3] = motion.Q;
     }
   }
 
@@ -86,8 +86,8 @@ struct PieceSizes {
   explicit PieceSizes(const Stencil& start) {
     p[0] = sizeOf(start.p[3]);
     for (int k = 1; k <= highest; ++k) {
-      p[static_cast<std::size_t>(k)] = sizeOf(start.derivative(start.p, k));
-      Q[static_cast<std::size_t>(k)] = sizeOf(start.derivative(start.Q, k));
+      p[k] = sizeOf(start.derivative(start.p, k));
+      Q[k] = sizeOf(start.derivative(start.Q, k));
     }
   }
 };
@@ -226,7 +226,7 @@ Check judgedAs(const std::string& name, const WorstShare& shown, const std::stri
   if (!shown.any) return notMade(name, unit, "no instant was compared");
   const std::string doubles =
       exact ? "" : "; 250 eps over the step, to the order of the derivative, and twice what halving the step changes";
-  const auto part = [](int where) { return parts[static_cast<std::size_t>(where)]; };
+  const auto part = [](int where) { return parts[where]; };
   Check check = judged(
       name, shown.value, shown.limit, unit,
       "25 eps x the sum of its terms in powers of (t - start)/h, and the effect of an angle's rounding" + doubles,

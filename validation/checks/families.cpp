@@ -196,7 +196,7 @@ std::vector<Witness> witnesses() {
 
 void checksInSi(const Units& units, std::vector<Check>& checks) {
   for (Check& check : checks) {
-    const double unit = units.of(check.unit);
+    const double unit = units.sizeOf(check.unit);
     check.value *= unit;
     check.limit *= unit;
     check.largest.value *= unit;
@@ -225,10 +225,9 @@ std::vector<Check> judgeAll(Evidence& evidence) {
   }
   std::vector<std::vector<Check>> judged(left.size());
   inParallel(evidence.threads, static_cast<int>(left.size()), [&](int k) {
-    const auto i = static_cast<std::size_t>(k);
     inTime([&] {
-      judged[i] = left[i]->judge(evidence);
-      if (!left[i]->in_si) checksInSi(evidence.units(), judged[i]);
+      judged[k] = left[k]->judge(evidence);
+      if (!left[k]->in_si) checksInSi(evidence.units(), judged[k]);
     });
   });
   for (std::vector<Check>& checks : judged) append(out, std::move(checks));

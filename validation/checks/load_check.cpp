@@ -68,7 +68,7 @@ class Table {
 
 const char* componentName(int k) {
   constexpr std::array<const char*, 6> names{"f_x", "f_y", "f_z", "m_x", "m_y", "m_z"};
-  return k < 0 ? "no component" : names[static_cast<std::size_t>(k)];
+  return k < 0 ? "no component" : names[k];
 }
 
 void compareRows(const std::vector<TimedWrench>& rows, const std::function<Wrench<double>(double)>& at,

@@ -9,7 +9,7 @@ namespace ursula {
 
 void BackgroundTasks::start(int threads, const std::vector<Task>& first) {
   tasks_.assign(first.begin(), first.end());
-  threads_ = startThreads(static_cast<std::size_t>(std::max(threads, 0)), [this] { work(); });
+  threads_ = startThreads(std::max(threads, 0), [this] { work(); });
 }
 
 void BackgroundTasks::add(const Task& task) {

@@ -116,7 +116,7 @@ void askBetween(Evidence& out) {
   ask(goldenInstants(trajectory.duration(), left * 4 / 5));  // not in order of time
   std::vector<Answered> answers = subject.answers();
   sortByTime(answers);
-  ask(curvedInstants(answers, static_cast<std::size_t>(left) / 5));
+  ask(curvedInstants(answers, left / 5));
   std::vector<double> repeated;
   for (std::size_t k = again; k-- > 0;) repeated.push_back(samples[k * (samples.size() - 1) / (again - 1)]);
   ask(repeated);

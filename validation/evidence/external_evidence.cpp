@@ -54,7 +54,7 @@ ExternalTorques runExternal(const Scenario& scenario, const TorqueFile& file, co
   subject.name = file.file.filename().string();
   subject.torques = [&](const Motion<double>& motion) {  // called only at the file's own instants
     const auto row = std::lower_bound(out.file.t.begin(), out.file.t.end(), motion.t) - out.file.t.begin();
-    return out.file.torques.at(static_cast<std::size_t>(row));
+    return out.file.torques.at(row);
   };
   const RoundingProfile profile(scenario, profileInstants(static_cast<int>(out.file.rows())), deadline);
   out.sizes = profile.sizes();
@@ -131,9 +131,8 @@ class SplineLimit {
     const auto first = std::upper_bound(t_.begin(), t_.end(), from) - t_.begin() - 1;
     double largest = 0;
     for (auto j = std::clamp<std::ptrdiff_t>(first, 0, last); j <= last; ++j) {
-      const auto i = static_cast<std::size_t>(j);
-      if (t_[i] > to && i > 0) break;
-      largest = std::max(largest, interpolation_[i] + digits_[i]);
+      if (t_[j] > to && j > 0) break;
+      largest = std::max(largest, interpolation_[j] + digits_[j]);
     }
     return largest;
   }

@@ -49,7 +49,7 @@ std::vector<Conditions> conditionsAt(const Scenario& scenario, const std::vector
 PreparedScenario::PreparedScenario(const Scenario& given)
     : natural(checked(given)),
       relocated(ursula::relocated(given, natural.origin)),
-      scenario(natural.of(given)),
+      scenario(natural.transformed(given)),
       instants(equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples)) {}
 
 RoundingAlong::RoundingAlong(const PreparedScenario& of, const Deadline& deadline, const FormulationFaults& faults)
@@ -59,9 +59,9 @@ RoundingAlong::RoundingAlong(const PreparedScenario& of, const Deadline& deadlin
       position_scale(positionScale(along())),
       forces(loopForces(along())) {}
 
-Reference::Reference(const Scenario& given, int threads, const Deadline& whole, const FormulationFaults& of,
+Reference::Reference(const Scenario& given, int threads, const Deadline& whole, const FormulationFaults& wrong,
                      bool with_replays)
-    : PreparedScenario(given), deadline(whole.part()), faults(of), in_simbody(of.simbody.of(scenario)) {
+    : PreparedScenario(given), deadline(whole.part()), faults(wrong), in_simbody(wrong.simbody.applied(scenario)) {
   std::vector<BackgroundTasks::Task> first = {[this] { simbody(); }, [this] { engines(); }};
   if (with_replays) first.insert(first.begin(), [this] { orders(); });  // longest first
   background_.start(threads - 1, first);

@@ -31,7 +31,7 @@ class Columns {
 
   template <class Rows, class F>
   void add(const std::string& quantity, const std::string& unit, const Rows& rows, F&& value, double offset = 0) {
-    const double size = from_ == nullptr ? 1 : from_->units.of(unit);
+    const double size = from_ == nullptr ? 1 : from_->units.sizeOf(unit);
     series_.add(quantity + (unit.empty() ? "" : "_") + unit, valuesOf(rows, [&](const auto& row) {
                   return from_ == nullptr ? value(row) : value(row) * size + offset;
                 }));

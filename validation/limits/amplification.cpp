@@ -74,7 +74,7 @@ Amplification::Amplification(const Scenario& scenario, int intervals, const Dead
     const Matrix12 J1 = linearisation.at((k + 0.5) * h), J2 = linearisation.at((k + 1) * h);
     if (uniform_ && k > 0 && (J1 != first || J2 != first)) {
       uniform_ = false;
-      propagators_.resize(static_cast<std::size_t>(k), Matrix12(propagators_.front()));
+      propagators_.resize(k, Matrix12(propagators_.front()));
     }
     if (!uniform_ || k == 0) propagators_.push_back(between(J0, J1, J2, h));
     if (J1 != first || J2 != first) uniform_ = false;

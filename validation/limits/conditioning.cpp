@@ -48,7 +48,6 @@ Projection project(const Manipulator& manipulator, const TwistShaping<double>& T
   Vector6d torque = Vector6d::Zero();
   double friction = 0, largest_spin = 0;
   for (int b = 0; b < body_count; ++b) {
-    const auto i = static_cast<std::size_t>(b);
     const int leg_index = b % leg_count;
     const bool is_platform = b == 2 * leg_count;
     if (!is_platform && leg_index >= manipulator.legCount()) continue;
@@ -57,10 +56,10 @@ Projection project(const Manipulator& manipulator, const TwistShaping<double>& T
     const double mass = is_platform ? manipulator.platform().mass : link.mass;
     const Matrix3d& inertia = is_platform ? manipulator.platform().inertia : link.inertia;
     const Eigen::Matrix<double, 6, 6> T_b = T.block<6, 6>(6 * b, 0);
-    const WrenchSize w = wrenchSize(bodies[i], mass, inertia, manipulator.gravity());
+    const WrenchSize w = wrenchSize(bodies[b], mass, inertia, manipulator.gravity());
     torque += w.moment * T_b.topRows<3>().colwise().norm() + w.force * T_b.bottomRows<3>().colwise().norm();
     out.inertia += mass * T_b.bottomRows<3>().transpose() * T_b.bottomRows<3>() +
-                   T_b.topRows<3>().transpose() * (bodies[i].R * inertia * bodies[i].R.transpose()) * T_b.topRows<3>();
+                   T_b.topRows<3>().transpose() * (bodies[b].R * inertia * bodies[b].R.transpose()) * T_b.topRows<3>();
     if (!is_platform) largest_spin = std::max(largest_spin, T_b.topRows<3>().colwise().norm().maxCoeff());
     if (b < leg_count) friction += frictionMagnitude(leg, rates, b, length);
   }
@@ -98,7 +97,7 @@ double rotorScale(const Manipulator& manipulator, const Matrix6d& T_P, double ra
   double out = 0;
   const Matrix6d J = T_P.inverse();
   for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = manipulator.motors()[static_cast<std::size_t>(m)];
+    const Motor& motor = manipulator.motors()[m];
     out += manipulator.leg(motor.leg).rotor_inertia.on(motor.coordinate) * J.row(m).norm() * rate_scale;
   }
   return out;
@@ -131,7 +130,7 @@ void setPlatform(const Noc<double>& solver, const Manipulator& manipulator, cons
 void setLegs(const Noc<double>& solver, const NocWorkspace<double>& work, Conditioning& out) {
   out.smallest_sine = 1;
   for (int i = 0; i < solver.machine().legs_in_all; ++i) {
-    const LegMargins<double>& margins = work.legs[static_cast<std::size_t>(i)].margins;
+    const LegMargins<double>& margins = work.legs[i].margins;
     const double sine = margins.sine, lever = margins.leverage;
     out.kappa_legs = std::max(out.kappa_legs, lever * lever / (sine * sine));
     if (sine < out.smallest_sine) {
@@ -159,7 +158,7 @@ void setPositions(const Manipulator& manipulator, const Motion<double>& motion, 
     out.position_scale = std::max(out.position_scale, (leg.base_point - middle).norm());
   for (int b = 0; b < body_count; ++b)
     if (b == 2 * leg_count || b % leg_count < manipulator.legCount())
-      out.position_scale = std::max(out.position_scale, (bodies[static_cast<std::size_t>(b)].c - middle).norm());
+      out.position_scale = std::max(out.position_scale, (bodies[b].c - middle).norm());
 }
 
 }  // namespace
@@ -270,7 +269,7 @@ Conditioning ConditioningProbe::at(const Motion<double>& motion) {
   const Projection projection = project(manipulator_, work_.T, bodies, solver_.rates(work_), out.length);
   Matrix6d I = projection.inertia;
   for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = manipulator_.motors()[static_cast<std::size_t>(m)];
+    const Motor& motor = manipulator_.motors()[m];
     I(m, m) += manipulator_.leg(motor.leg).rotor_inertia.on(motor.coordinate);
   }
   out.kappa_I = conditionOfI(I);

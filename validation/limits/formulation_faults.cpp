@@ -11,7 +11,7 @@ class FaultyEngine final : public Engine {
   FaultyEngine(std::unique_ptr<Engine> engine, EngineFault fault)
       : engine_(std::move(engine)), fault_(std::move(fault)) {}
   Vector6d inverseDynamics(const Motion<double>& motion) override {
-    return fault_.of(engine_->inverseDynamics(motion));
+    return fault_.applied(engine_->inverseDynamics(motion));
   }
 
  private:
@@ -21,18 +21,18 @@ class FaultyEngine final : public Engine {
 
 }  // namespace
 
-Manipulator EngineFault::of(const Manipulator& right) const {
+Manipulator EngineFault::applied(const Manipulator& right) const {
   ManipulatorParameters out = right.parameters();
   if (machine) machine(out);
   return Manipulator(out);
 }
 
-Scenario EngineFault::of(Scenario right) const {
-  if (machine) right.manipulator = std::make_shared<const Manipulator>(of(*right.manipulator));
+Scenario EngineFault::applied(Scenario right) const {
+  if (machine) right.manipulator = std::make_shared<const Manipulator>(applied(*right.manipulator));
   return right;
 }
 
-Vector6d EngineFault::of(Vector6d right) const {
+Vector6d EngineFault::applied(Vector6d right) const {
   if (efforts) efforts(right);
   return right;
 }
@@ -48,7 +48,8 @@ OfFurtherEngines<std::unique_ptr<Engine>> makeFurtherEngines(const Manipulator& 
   OfFurtherEngines<std::unique_ptr<Engine>> out = makeFurtherEngines(manipulator, load);
   for (std::size_t k = 0; k < furtherEngines().size(); ++k)
     if (faults[k] && out[k])
-      out[k] = std::make_unique<FaultyEngine>(furtherEngines()[k].make(faults[k].of(manipulator), load), faults[k]);
+      out[k] =
+          std::make_unique<FaultyEngine>(furtherEngines()[k].make(faults[k].applied(manipulator), load), faults[k]);
   return out;
 }
 

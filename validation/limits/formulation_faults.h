@@ -14,10 +14,10 @@ struct EngineFault {
   std::function<void(ManipulatorParameters&)> machine;  ///< which it is built from, in the frame in which it is asked
   std::function<void(Vector6d&)> efforts;               ///< its answers, by its own numbers of the motors
 
-  Manipulator of(const Manipulator& right) const;
-  /// Returns the scenario with the engine's machine.
-  Scenario of(Scenario right) const;
-  Vector6d of(Vector6d right) const;
+  /// Return what the faulty engine has in place of the right thing.
+  Manipulator applied(const Manipulator& right) const;
+  Scenario applied(Scenario right) const;
+  Vector6d applied(Vector6d right) const;
   explicit operator bool() const { return machine || efforts; }
 };
 

@@ -108,9 +108,7 @@ RoundingProfile::RoundingProfile(const Scenario& scenario, int instants, const D
     else
       last_distinct = motion;
     std::vector<std::size_t> frames;  // one in turn, or several if there are fewer instants
-    for (auto j = static_cast<std::size_t>(k) % frame_changes; j < frame_changes;
-         j += static_cast<std::size_t>(instants))
-      frames.push_back(j);
+    for (std::size_t j = k % frame_changes; j < frame_changes; j += instants) frames.push_back(j);
     motions_.push_back(motion);
     measured_.push_back(measure(motion, nullptr, frames));
   }
@@ -153,7 +151,7 @@ RoundingProfile::Measured RoundingProfile::measure(const Motion<double>& motion,
 std::pair<std::size_t, std::size_t> RoundingProfile::nearest(double t) const {
   const auto after = std::lower_bound(measured_.begin(), measured_.end(), t,
                                       [](const Measured& each, double at) { return each.t < at; });
-  const auto i = static_cast<std::size_t>(after - measured_.begin());
+  const std::size_t i = after - measured_.begin();
   const std::size_t first = i > neighbours ? i - neighbours : 0;
   const std::size_t last = std::min(i + neighbours, measured_.size() - 1);
   return {std::min(first, last), last};

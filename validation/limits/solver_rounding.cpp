@@ -17,7 +17,7 @@ MachineParameters<double> movedNumbers(const Manipulator& manipulator, unsigned 
   MachineParameters<double> machine(manipulator);
   const Mover move(seed);
   for (int i = 0; i < machine.legs_in_all; ++i) {
-    LegModel<double>& leg = machine.legs[static_cast<std::size_t>(i)];
+    LegModel<double>& leg = machine.legs[i];
     for (Vector3d* vector : {&leg.a, &leg.b, &leg.x_hat, &leg.u, &leg.z_hat}) move(*vector);
     for (double* number : {&leg.l, &leg.s, &leg.rho, &leg.sigma, &leg.mass_1, &leg.mass_2}) move(*number);
     for (Matrix3d* tensor : {&leg.I_1, &leg.I_2}) move(*tensor);

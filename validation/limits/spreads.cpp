@@ -13,10 +13,9 @@ double angleDistance(const Manipulator& machine, const JointVariables<double>& a
                      const BodyMotions<double>& of_a, const BodyMotions<double>& of_b, double length) {
   double largest = 0;
   for (int i = 0; i < machine.legCount(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
     const bool carriage = rowOf(machine.leg(i).kind).hasCarriage();
     // The plane of a leg with a carriage is its rod's; its ψ starts at an axis that does not turn with the frame.
-    const std::size_t in_plane = carriage ? leg_count + k : k;
+    const std::size_t in_plane = carriage ? leg_count + i : i;
     const double plane = (of_a[in_plane].R.col(0) - of_b[in_plane].R.col(0)).norm();
     const auto turn = [](double x, double y) { return std::abs(std::remainder(x - y, 2 * pi)); };
     largest = larger(largest, plane);

@@ -131,7 +131,7 @@ class ChangedTrajectory : public MotorTrajectory {
     out.t = t;
     const double rate = (change_.reversed ? -1 : 1) / change_.time;
     for (Eigen::Index k = 0; k < given.q.size(); ++k) {
-      const auto to = static_cast<Eigen::Index>(change_.motor_of[static_cast<std::size_t>(k)]);
+      const auto to = static_cast<Eigen::Index>(change_.motor_of[k]);
       const double own = change_.coordinates(k);
       out.q(to) = own * given.q(k);
       out.qdot(to) = own * rate * given.qdot(k);
@@ -184,7 +184,7 @@ std::vector<MechanismInvariance> askInvariances(const MechanismScenario& scenari
       InvarianceSample sample{t, 1 / work.reciprocal_condition, MotorEfforts(expected.size()),
                               motion.solver().effortScale(work)};
       for (Eigen::Index k = 0; k < expected.size(); ++k) {
-        const auto at = static_cast<Eigen::Index>(change.motor_of[static_cast<std::size_t>(k)]);
+        const auto at = static_cast<Eigen::Index>(change.motor_of[k]);
         sample.difference(k) = found(at) * change.back(k) - expected(k);
       }
       one.samples.push_back(std::move(sample));

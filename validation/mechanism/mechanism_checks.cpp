@@ -15,7 +15,7 @@ class Judge {
  public:
   Judge(const MechanismEvidence& evidence) : evidence_(evidence), mechanism_(*evidence.scenario->mechanism) {}
 
-  std::string motorName(int k) const { return k < 0 ? "" : mechanism_.motor(static_cast<std::size_t>(k)).name; }
+  std::string motorName(int k) const { return k < 0 ? "" : mechanism_.motor(k).name; }
 
   /// Efforts of the subject against `theirs`, which returns null where there are none.
   template <class Theirs>
@@ -93,7 +93,7 @@ Check judgeAccelerations(const Judge& judge, const std::string& name, const std:
     MotorEfforts response = (2 * evidence.level + evidence.acceleration_level) * evidence.response(sample);
     if (sample.given.size() > 0) response += sample.inverse_inertia.cwiseAbs() * sample.given;
     for (Eigen::Index k = 0; k < difference.size(); ++k) {
-      const double in = judge.mechanism_.motor(static_cast<std::size_t>(k)).slides() ? 1 : length;
+      const double in = judge.mechanism_.motor(k).slides() ? 1 : length;
       worst.add(std::abs(difference(k)) * in, response(k) * in, sample.motion.t, static_cast<int>(k));
       of.size = std::max({of.size, std::abs(sample.motion.qddot(k)) * in,
                           (sample.inverse_inertia * sample.noc).cwiseAbs().maxCoeff() * in});

@@ -109,12 +109,12 @@ std::vector<MotorEfforts> answersOf(const MechanismSubject& subject, bool betwee
 void setUnits(const Mechanism& mechanism, MechanismEvidence& out) {
   const auto n = static_cast<Eigen::Index>(mechanism.motorCount());
   Eigen::Index slide = 0;
-  for (Eigen::Index k = 0; k < n; ++k) slide += mechanism.motor(static_cast<std::size_t>(k)).slides() ? 1 : 0;
+  for (Eigen::Index k = 0; k < n; ++k) slide += mechanism.motor(k).slides() ? 1 : 0;
   out.efforts_in = MotorEfforts::Ones(n);
   out.unit = slide == n ? "N" : "N m";
   if (slide == n || slide == 0) return;
   for (Eigen::Index k = 0; k < n; ++k)
-    if (mechanism.motor(static_cast<std::size_t>(k)).slides()) out.efforts_in(k) = mechanism.length();
+    if (mechanism.motor(k).slides()) out.efforts_in(k) = mechanism.length();
 }
 
 /// The largest change of the efforts within a time of an instant, as rounded stamps of time leave it open.

@@ -146,14 +146,12 @@ void addSeries(const MechanismEvidence& evidence, ValidationResult& result) {
   for (const auto& [quantity, member] :
        {std::pair("q", &MotorMotion::q), {"qdot", &MotorMotion::qdot}, {"qddot", &MotorMotion::qddot}})
     for (Eigen::Index k = 0; k < n; ++k)
-      column(motorColumn(mechanism, static_cast<std::size_t>(k), quantity),
-             [k, member = member](const S& s) { return (s.motion.*member)(k); });
+      column(motorColumn(mechanism, k, quantity), [k, member = member](const S& s) { return (s.motion.*member)(k); });
   for (int k = 0; k < 3; ++k)
     column(fmt::format("output_{}_m", "xyz"[k]), [k](const S& s) { return s.output.translation()(k); });
   const auto efforts = [&](const std::string& prefix, const auto& of) {
     for (Eigen::Index k = 0; k < n; ++k)
-      column(prefix + motorColumn(mechanism, static_cast<std::size_t>(k), "tau"),
-             [k, &of](const S& s) { return of(s)(k); });
+      column(prefix + motorColumn(mechanism, k, "tau"), [k, &of](const S& s) { return of(s)(k); });
   };
   efforts("", [](const S& s) { return s.subject; });
   efforts("noc_", [](const S& s) { return s.noc; });
@@ -271,7 +269,7 @@ ValidationResult validateMechanism(const MechanismScenario& scenario, const Mech
     if (partMechanismCause() != nullptr) partMechanismCause()(scenario, evidence, result);
     if (evidence.out_of_time.empty()) result.size = failureSize(evidence, makers, result);
   }
-  sayEfforts(result);
+  addEffortWords(result);
   return result;
 }
 

@@ -35,7 +35,7 @@ class WindowMeans {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(values.front().size());
     double weights = 0;
     const auto from = std::lower_bound(t_.begin(), t_.end(), centre - half_) - t_.begin();
-    for (auto k = static_cast<std::size_t>(from); k < t_.size() && t_[k] < centre + half_; ++k) {
+    for (std::size_t k = from; k < t_.size() && t_[k] < centre + half_; ++k) {
       const double x = (t_[k] - centre) / half_, falling = 1 - x * x;
       const double between = (t_[std::min(k + 1, t_.size() - 1)] - t_[k > 0 ? k - 1 : 0]) / 2;
       const double weight = falling * falling * falling * between;
@@ -126,8 +126,8 @@ std::shared_ptr<const Trajectory> likewise(const Trajectory& motion, const CsvTa
     const Eigen::Vector4d q = quaternions({at}).front();
     poses.emplace_back();
     poses.back().time = t;
-    for (int k = 0; k < 3; ++k) poses.back().position(k) = toDigits(at.p(k), halves[static_cast<std::size_t>(k)]);
-    for (int k = 0; k < 4; ++k) poses.back().orientation(k) = toDigits(q(k), halves[static_cast<std::size_t>(k) + 3]);
+    for (int k = 0; k < 3; ++k) poses.back().position(k) = toDigits(at.p(k), halves[k]);
+    for (int k = 0; k < 4; ++k) poses.back().orientation(k) = toDigits(q(k), halves[k + 3]);
   }
   return makeSamples(poses);
 }
@@ -180,7 +180,7 @@ ValidationResult validateMotion(const MechanismScenario& scenario, const std::fi
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(read.t.size()),
                        static_cast<Eigen::Index>(scenario.mechanism->motorCount()));
   for (Eigen::Index k = 0; k < rows.rows(); ++k) {
-    const double t = std::min(read.t[static_cast<std::size_t>(k)], scenario.trajectory->duration());
+    const double t = std::min(read.t[k], scenario.trajectory->duration());
     const Eigen::VectorXd q = scenario.trajectory->at(t).q;
     for (Eigen::Index i = 0; i < rows.cols(); ++i) rows(k, i) = toDigits(q(i), read.quantum);
   }

@@ -100,7 +100,7 @@ bool LineProcess::receive(double deadline, bool& ended) {
   for (;;) {
     const ssize_t count = ::read(process_.from(), some.data(), some.size());
     if (count > 0) {
-      received_.append(some.data(), static_cast<std::size_t>(count));
+      received_.append(some.data(), count);
       return true;
     }
     ended = count == 0;
@@ -206,7 +206,7 @@ Eigen::VectorXd solverAnswer(const std::string& line, int count, const char* wha
                                          cells.size() == 1 ? "" : "s",
                                          count == motor_count ? "six" : std::to_string(count)));
   Eigen::VectorXd out(count);
-  for (int i = 0; i < count; ++i) out(i) = numberOf(cells[static_cast<std::size_t>(i)], i + 1, what);
+  for (int i = 0; i < count; ++i) out(i) = numberOf(cells[i], i + 1, what);
   return out;
 }
 

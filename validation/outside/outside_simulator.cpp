@@ -140,7 +140,7 @@ TorqueFile effortsIn(const Scenario& scenario, const Reference& reference, Asked
   std::vector<WantedState> states;
   for (const double t : out.t) {
     motions.push_back(scenario.trajectory->at(t));
-    const Conditioning at = reference.rounding().profile.at(reference.natural.of(motions.back()));
+    const Conditioning at = reference.rounding().profile.at(reference.natural.transformed(motions.back()));
     states.push_back(asked.wanted(motions.back(), at.length * units.length));
     states.back().rounding = at.rounding(Rounded::direct) * units.acceleration();
   }
@@ -182,7 +182,7 @@ ValidationResult outOfTime(const Scenario& scenario, const JudgedSubject& about,
   SubjectHas has;
   has.out_of_time = over.what();
   conclude(scenario, has, 0, result);
-  sayEfforts(result);
+  addEffortWords(result);
   return result;
 }
 

@@ -8,7 +8,7 @@
 
 namespace ursula {
 
-SimbodyLoop::TorqueHistory AskedTorques::of(const SimbodyLoop::TorqueHistory& torques) {
+SimbodyLoop::TorqueHistory AskedTorques::recorded(const SimbodyLoop::TorqueHistory& torques) {
   return [this, &torques](double t) {
     answers_.push_back({t, Vector6d::Zero(), false});
     const Vector6d answer = torques(t);

@@ -11,7 +11,7 @@ namespace ursula {
 class AskedTorques {
  public:
   /// Wraps `torques` so that every question and answer is recorded here. Keeps a reference to both.
-  SimbodyLoop::TorqueHistory of(const SimbodyLoop::TorqueHistory& torques);
+  SimbodyLoop::TorqueHistory recorded(const SimbodyLoop::TorqueHistory& torques);
   /// Appends the record of `more`.
   void add(const AskedTorques& more);
   /// Whether `torques` gives all these answers. False if nothing was asked or if it throws.

@@ -91,7 +91,7 @@ class Run {
  public:
   Run(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const ReplaySettings& settings)
       : trajectory_(*scenario.trajectory),
-        torques_(result_.asked.of(torques)),
+        torques_(result_.asked.recorded(torques)),
         settings_(settings),
         stops_(knotsWithin(scenario, settings.start, settings.end)),
         loop_(*scenario.manipulator, settings.topology, scenario.load) {

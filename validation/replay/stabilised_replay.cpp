@@ -254,7 +254,7 @@ StabilisedReplay stabilisedReplay(const Scenario& scenario, const Subject& subje
     return found;
   }
   try {
-    follow(loop, subject, found.asked.of(torques), *scenario.trajectory, deadline, found);
+    follow(loop, subject, found.asked.recorded(torques), *scenario.trajectory, deadline, found);
   } catch (const std::exception& error) {  // earlier results are kept
     if (isShortage(error)) throw;
     found.stopped = error.what();

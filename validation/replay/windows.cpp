@@ -16,7 +16,7 @@ double SampledLimit<Sample>::operator()(double t) const {
   const auto after = std::lower_bound(samples_.begin(), samples_.end(), t,
                                       [](const Sample& sample, double at) { return sample.motion.t < at; });
   const auto last = static_cast<std::ptrdiff_t>(samples_.size()) - 1;
-  const auto i = static_cast<std::size_t>(std::min(after - samples_.begin(), last));
+  const std::size_t i = std::min(after - samples_.begin(), last);
   return std::max(samples_[i].conditioning.accelerationRounding(),
                   samples_[i == 0 ? 0 : i - 1].conditioning.accelerationRounding());
 }

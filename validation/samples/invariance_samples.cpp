@@ -23,7 +23,7 @@ Matrix3d turnOf(int frame) {
 
 std::vector<FrameChange> worldTurned(const Manipulator& machine) {
   std::vector<FrameChange> out(frames, FrameChange(machine));
-  for (int k = 0; k < frames; ++k) out[static_cast<std::size_t>(k)].turn = turnOf(k);
+  for (int k = 0; k < frames; ++k) out[k].turn = turnOf(k);
   return out;
 }
 
@@ -32,8 +32,8 @@ std::vector<FrameChange> otherAxes(const Manipulator& machine) {
   std::vector<FrameChange> out(frames, FrameChange(machine));
   const double length = machine.parameters().legs.front().platform_point.norm();
   for (int k = 0; k < frames; ++k) {
-    out[static_cast<std::size_t>(k)].platform_turn = turnOf(k + frames);
-    out[static_cast<std::size_t>(k)].origin = length * turnOf(k) * Vector3d(0.3, -0.7, 0.4);
+    out[k].platform_turn = turnOf(k + frames);
+    out[k].origin = length * turnOf(k) * Vector3d(0.3, -0.7, 0.4);
   }
   return out;
 }
@@ -53,8 +53,8 @@ std::vector<FrameChange> otherUnits(const Manipulator& machine) {
 /// Leg i becomes leg i + 1, the last one the first.
 FrameChange relabelled(const Manipulator& machine) {
   FrameChange out(machine);
-  std::array<int, leg_count> legs = out.leg;
-  for (int i = 0; i < machine.legCount(); ++i) legs[static_cast<std::size_t>((i + 1) % machine.legCount())] = i;
+  PerLeg<int> legs = out.leg;
+  for (int i = 0; i < machine.legCount(); ++i) legs[(i + 1) % machine.legCount()] = i;
   out.relabel(machine, legs);
   return out;
 }
@@ -110,7 +110,7 @@ InvarianceSamples sampledIn(Symmetry symmetry, const Subject& subject, const Man
                             const std::vector<FrameChange>& all, const std::vector<PointwiseSample>& samples) {
   const Subject own = subject.rebuilt(machine);
   std::vector<Subject> seen;
-  for (const FrameChange& there : all) seen.push_back(subject.rebuilt(there.of(machine)));
+  for (const FrameChange& there : all) seen.push_back(subject.rebuilt(there.transformed(machine)));
   std::size_t k = 0;  // index of the sample
   return sampled(
       symmetry, own.torques,
@@ -118,7 +118,7 @@ InvarianceSamples sampledIn(Symmetry symmetry, const Subject& subject, const Man
         const Vector6d expected = own.torques(motion);
         Vector6d worst = expected;
         for (std::size_t i = k % all.size(); i < all.size(); i += samples.size()) {
-          const Vector6d found = all[i].torquesBack(seen[i].torques(all[i].of(motion)));
+          const Vector6d found = all[i].torquesBack(seen[i].torques(all[i].transformed(motion)));
           if (!((found - expected).norm() <= (worst - expected).norm())) worst = found;
         }
         ++k;
@@ -134,7 +134,7 @@ std::vector<InvarianceSamples> runInvariances(const Scenario& scenario, const Su
   if (!subject.rebuilt) return {};
   const Manipulator& machine = *scenario.manipulator;
   const FrameChange labels = relabelled(machine);
-  const Subject own = subject.rebuilt(machine), with_other_labels = subject.rebuilt(labels.of(machine)),
+  const Subject own = subject.rebuilt(machine), with_other_labels = subject.rebuilt(labels.transformed(machine)),
                 with_double = subject.rebuilt(doubled(machine)),
                 without_friction = subject.rebuilt(frictionless(machine));
   using M = Motion<double>;
@@ -146,8 +146,8 @@ std::vector<InvarianceSamples> runInvariances(const Scenario& scenario, const Su
       transformed(Symmetry::axes, otherAxes(machine)),
       transformed(Symmetry::units, otherUnits(machine)),
       sampled(
-          Symmetry::labels, [&](const M& motion) { return labels.of(own.torques(motion)); }, with_other_labels.torques,
-          samples),
+          Symmetry::labels, [&](const M& motion) { return labels.transformed(own.torques(motion)); },
+          with_other_labels.torques, samples),
       sampled(
           Symmetry::mass, [&](const M& motion) { return Vector6d(2 * own.torques(motion)); }, with_double.torques,
           samples),

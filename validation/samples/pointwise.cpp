@@ -66,10 +66,9 @@ void compareJoints(const JointMotion& answer, PointwiseSample& sample) {
 void compareBodies(const BodyMotions<double>& answer, const BodyMotions<double>& simbody, PointwiseSample& sample) {
   const double length = sample.conditioning.length;
   for (int b = 0; b < body_count; ++b) {
-    const auto i = static_cast<std::size_t>(b);
-    raise(sample.position, (answer[i].c - simbody[i].c).norm() + length * (answer[i].R - simbody[i].R).norm(), b);
-    raise(sample.twist, twistSize(answer[i].twist - simbody[i].twist, length), b);
-    raise(sample.twist_rate, twistSize(answer[i].twist_rate - simbody[i].twist_rate, length), b);
+    raise(sample.position, (answer[b].c - simbody[b].c).norm() + length * (answer[b].R - simbody[b].R).norm(), b);
+    raise(sample.twist, twistSize(answer[b].twist - simbody[b].twist, length), b);
+    raise(sample.twist_rate, twistSize(answer[b].twist_rate - simbody[b].twist_rate, length), b);
   }
 }
 
@@ -199,7 +198,7 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
                                           const std::vector<double>& instants, const RoundingProfile& profile,
                                           const std::vector<SimbodyAnswer>& simbody, const Deadline& deadline,
                                           const EngineFault& fault) {
-  SimbodyLoop loop(fault.of(*scenario.manipulator), SimbodyLoop::Topology::ball_per_leg, scenario.load);
+  SimbodyLoop loop(fault.applied(*scenario.manipulator), SimbodyLoop::Topology::ball_per_leg, scenario.load);
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);
   std::vector<PointwiseSample> samples;
   samples.reserve(instants.size());

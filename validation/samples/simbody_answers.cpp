@@ -39,14 +39,14 @@ SimbodyAnswer simbodyAnswer(SimbodyLoop& loop, const Subject& right, const Motio
 
 std::vector<SimbodyAnswer> simbodyAnswers(const Scenario& scenario, const std::vector<double>& instants,
                                           const Deadline& deadline, const EngineFault& fault) {
-  SimbodyLoop loop(fault.of(*scenario.manipulator), SimbodyLoop::Topology::ball_per_leg, scenario.load);
+  SimbodyLoop loop(fault.applied(*scenario.manipulator), SimbodyLoop::Topology::ball_per_leg, scenario.load);
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);
   std::vector<SimbodyAnswer> out;
   out.reserve(instants.size());
   for (double t : instants) {
     deadline.require();
     out.push_back(simbodyAnswer(loop, right, scenario.trajectory->at(t)));
-    out.back().torques = fault.of(out.back().torques);
+    out.back().torques = fault.applied(out.back().torques);
   }
   return out;
 }

@@ -30,8 +30,8 @@ std::vector<DirectSample> runDirect(const Scenario& scenario, const std::vector<
 
 /// The joint reactions at one instant, under the torques of the solver that computed them.
 struct ReactionSample {
-  Reactions recovered;                     ///< from the solver's formulation
-  std::array<double, leg_count> errors{};  ///< of each leg, relative to Simbody's mobilizer and constraint reactions, N
+  Reactions recovered;      ///< from the solver's formulation
+  PerLeg<double> errors{};  ///< of each leg, relative to Simbody's mobilizer and constraint reactions, N
 };
 
 /// The reactions that `subject` computes under its own torques at the motions of `samples`, which may be Conditions or

@@ -10,7 +10,7 @@ namespace ursula {
 std::vector<double> goldenInstants(double duration, int count) {
   const double ratio = (std::sqrt(5.0) - 1) / 2;
   std::vector<double> out;
-  out.reserve(static_cast<std::size_t>(count));
+  out.reserve(count);
   for (int k = 1; k <= count; ++k) out.push_back(duration * std::fmod(k * ratio, 1.0));
   return out;
 }

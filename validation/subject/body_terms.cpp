@@ -18,10 +18,9 @@ using UnitTwists = Eigen::Matrix<double, 6, 3>;
 UnitTwists unitTwists(const LegKindRow& row, const LegPoints& points, const Vector3d& c, int joints) {
   UnitTwists out = UnitTwists::Zero();
   for (int j = 0; j < joints; ++j) {
-    const auto k = static_cast<std::size_t>(j);
-    const Vector3d& axis = points.axes[k];
+    const Vector3d& axis = points.axes[j];
     const Vector3d& at = j < row.joints_of_proximal ? points.A : points.S;
-    if (slides(row.coordinates[k]))
+    if (slides(row.coordinates[j]))
       out.col(j) << Vector3d::Zero(), axis;
     else
       out.col(j) << axis, axis.cross(Vector3d(c - at));
@@ -135,7 +134,7 @@ MachineTerms machineTerms(const Manipulator& machine, const std::shared_ptr<cons
     open.efforts = of_first.transpose() * wrench(first) + of_second.transpose() * wrench(second);
     Vector3d q_ddot;
     for (int j = 0; j < 3; ++j) {
-      const Coordinate coordinate = row.coordinates[static_cast<std::size_t>(j)];
+      const Coordinate coordinate = row.coordinates[j];
       open.efforts(j) += frictionOf(leg, coordinate, rate.of(coordinate)(static_cast<int>(i)));
       q_ddot(j) = acceleration.of(coordinate)(static_cast<int>(i));
       open.mass(j, j) = leg.rotor_inertia.on(coordinate);

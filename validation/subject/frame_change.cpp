@@ -12,8 +12,6 @@
 namespace ursula {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 Matrix3d turnedTensor(const Matrix3d& R, const Matrix3d& I) {
   const Matrix3d out = R * I * R.transpose();
   return (out + out.transpose()) / 2;  // symmetric to the last bit, like a machine's tensors
@@ -36,7 +34,7 @@ void rescale(JointFriction& friction, double turning, double sliding) {
 
 }  // namespace
 
-double Units::of(const std::string& unit) const {
+double Units::sizeOf(const std::string& unit) const {
   const std::pair<const char*, double> known[] = {
       {"", 1},
       {"1", 1},
@@ -75,15 +73,15 @@ FrameChange::FrameChange(const Manipulator& machine) : legs(machine.legCount()) 
   for (std::size_t k = 0; k < slides.size(); ++k) slides[k] = machine.motors()[k].slides();
 }
 
-void FrameChange::relabel(const Manipulator& machine, const std::array<int, leg_count>& to) {
+void FrameChange::relabel(const Manipulator& machine, const PerLeg<int>& to) {
   leg = to;
   std::size_t there = 0;
   for (int i = 0; i < machine.legCount(); ++i)
     for (int k = 0; k < motor_count; ++k)
-      if (machine.motors()[at(k)].leg == leg[at(i)]) motor[there++] = k;
+      if (machine.motors()[k].leg == leg[i]) motor[there++] = k;
 }
 
-Manipulator FrameChange::of(const Manipulator& machine) const {
+Manipulator FrameChange::transformed(const Manipulator& machine) const {
   ManipulatorParameters out = machine.parameters();
   const double inertia = units.mass * units.length * units.length;
   out.gravity = turn * out.gravity / units.acceleration();
@@ -93,8 +91,8 @@ Manipulator FrameChange::of(const Manipulator& machine) const {
     out.platform.inertia = turnedTensor(platform_turn.transpose(), out.platform.inertia);
   out.platform.inertia /= inertia;
   for (int i = 0; i < legs; ++i) {
-    Leg& to = out.legs[at(i)];
-    to = machine.leg(leg[at(i)]);
+    Leg& to = out.legs[i];
+    to = machine.leg(leg[i]);
     to.base_point = turn * (to.base_point - origin) / units.length;
     to.base_axis = turn * to.base_axis;
     to.platform_point = platform_turn.transpose() * to.platform_point / units.length;
@@ -110,7 +108,7 @@ Manipulator FrameChange::of(const Manipulator& machine) const {
 }
 
 template <class S>
-Motion<S> FrameChange::of(const Motion<S>& motion) const {
+Motion<S> FrameChange::transformed(const Motion<S>& motion) const {
   const Matrix3<S> R = turn.cast<S>();
   const S time = units.time;
   Motion<S> out;
@@ -123,10 +121,10 @@ Motion<S> FrameChange::of(const Motion<S>& motion) const {
   out.p_ddot = R * motion.p_ddot / S(units.acceleration());
   return out;
 }
-template Motion<double> FrameChange::of(const Motion<double>&) const;
-template Motion<Real50> FrameChange::of(const Motion<Real50>&) const;
+template Motion<double> FrameChange::transformed(const Motion<double>&) const;
+template Motion<Real50> FrameChange::transformed(const Motion<Real50>&) const;
 
-std::shared_ptr<const Load> FrameChange::of(const std::shared_ptr<const Load>& load) const {
+std::shared_ptr<const Load> FrameChange::transformed(const std::shared_ptr<const Load>& load) const {
   if (!load) return nullptr;
   auto out = std::make_shared<Load>(*load);
   const Matrix3d R = load->frame == Load::Frame::base ? turn : Matrix3d(platform_turn.transpose());
@@ -145,15 +143,15 @@ std::shared_ptr<const Load> FrameChange::of(const std::shared_ptr<const Load>& l
   return out;
 }
 
-Vector6d FrameChange::of(const Vector6d& torques) const {
+Vector6d FrameChange::transformed(const Vector6d& torques) const {
   Vector6d out;
-  for (int k = 0; k < motor_count; ++k) out(k) = torques(motor[at(k)]) / effort(motor[at(k)]);
+  for (int k = 0; k < motor_count; ++k) out(k) = torques(motor[k]) / effort(motor[k]);
   return out;
 }
 
 Vector6d FrameChange::torquesBack(const Vector6d& torques) const {
   Vector6d out;
-  for (int k = 0; k < motor_count; ++k) out(motor[at(k)]) = torques(k) * effort(motor[at(k)]);
+  for (int k = 0; k < motor_count; ++k) out(motor[k]) = torques(k) * effort(motor[k]);
   return out;
 }
 
@@ -162,10 +160,10 @@ BodyMotions<double> FrameChange::back(const BodyMotions<double>& bodies) const {
   BodyMotions<double> out;
   for (int b = 0; b < body_count; ++b) {
     const bool is_platform = b == 2 * leg_count;
-    const int here = is_platform ? b : b < leg_count ? leg[at(b)] : leg_count + leg[at(b - leg_count)];
+    const int here = is_platform ? b : b < leg_count ? leg[b] : leg_count + leg[b - leg_count];
     if (!is_platform && b % leg_count >= legs) continue;
-    const BodyMotion<double>& from = bodies[at(b)];
-    BodyMotion<double>& to = out[at(here)];
+    const BodyMotion<double>& from = bodies[b];
+    BodyMotion<double>& to = out[here];
     to.c = R * from.c * units.length + origin;
     to.R = R * from.R;
     if (is_platform) to.R = (to.R * platform_turn.transpose()).eval();
@@ -180,10 +178,10 @@ JointMotion FrameChange::back(const JointMotion& joints) const {
   JointMotion out;
   const auto copy = [this](const JointVariables<double>& from, JointVariables<double>& to, double unit) {
     for (int i = 0; i < legs; ++i) {
-      to.phi(leg[at(i)]) = from.phi(i) * unit;
-      to.psi(leg[at(i)]) = from.psi(i) * unit;
-      to.theta(leg[at(i)]) = from.theta(i) * unit;
-      to.d(leg[at(i)]) = from.d(i) * unit * units.length;
+      to.phi(leg[i]) = from.phi(i) * unit;
+      to.psi(leg[i]) = from.psi(i) * unit;
+      to.theta(leg[i]) = from.theta(i) * unit;
+      to.d(leg[i]) = from.d(i) * unit * units.length;
     }
   };
   copy(joints.q, out.q, 1);
@@ -195,9 +193,9 @@ JointMotion FrameChange::back(const JointMotion& joints) const {
 Matrix6d shapingBack(const FrameChange& p, const Matrix6d& T) {
   Matrix6d out;
   for (int k = 0; k < motor_count; ++k) {
-    const int here = p.motor[at(k)];
+    const int here = p.motor[k];
     out.col(here) << p.turn.transpose() * T.col(k).head<3>(), p.turn.transpose() * T.col(k).tail<3>() * p.units.length;
-    if (p.slides[at(here)]) out.col(here) /= p.units.length;
+    if (p.slides[here]) out.col(here) /= p.units.length;
   }
   return out;
 }
@@ -206,9 +204,9 @@ Reactions FrameChange::back(const Reactions& reactions) const {
   const Matrix3d R = turn.transpose();
   Reactions out;
   for (int i = 0; i < legs; ++i) {
-    const LegReactions& from = reactions[at(i)];
-    out[at(leg[at(i)])] = {R * from.f_A * units.force(), R * from.n_A * units.torque(), R * from.f_R * units.force(),
-                           R * from.n_R * units.torque(), R * from.f_B * units.force()};
+    const LegReactions& from = reactions[i];
+    out[leg[i]] = {R * from.f_A * units.force(), R * from.n_A * units.torque(), R * from.f_R * units.force(),
+                   R * from.n_R * units.torque(), R * from.f_B * units.force()};
   }
   return out;
 }

@@ -16,8 +16,8 @@ namespace ursula {
 /// The kind of a machine's efforts: all moments, all forces, or both. In the last case a force counts as its moment at
 /// the unit of length.
 struct Efforts {
-  const char* unit = "N m";                               ///< "N" if all motors slide
-  std::array<int, motor_count> leg = {0, 1, 2, 3, 4, 5};  ///< leg of each motor
+  const char* unit = "N m";                ///< "N" if all motors slide
+  PerMotor<int> leg = {0, 1, 2, 3, 4, 5};  ///< leg of each motor
 };
 
 /// Units of length, mass and time, in metres, kilograms and seconds.
@@ -29,12 +29,12 @@ struct Units {
   double acceleration() const { return length / (time * time); }
   double force() const { return mass * acceleration(); }
   double torque() const { return force() * length; }
-  double effort() const { return of(efforts.unit); }
+  double effort() const { return sizeOf(efforts.unit); }
   /// Returns the leg, 0-based, of a motor; −1 for −1.
-  int legOf(int motor) const { return motor < 0 ? motor : efforts.leg[static_cast<std::size_t>(motor)]; }
+  int legOf(int motor) const { return motor < 0 ? motor : efforts.leg[motor]; }
   /// Returns a unit's size in SI: "m", "m/s^2", "N m", "rad/s", "J", … as in checks, or as in columns ("Nm", "m_s2").
   /// It is 1 for a pure number. Throws std::invalid_argument for an unknown unit.
-  double of(const std::string& unit) const;
+  double sizeOf(const std::string& unit) const;
 };
 
 /// The same physics in another frame: the world rotated and shifted, the platform's frame rotated, legs relabelled,
@@ -45,29 +45,31 @@ struct FrameChange {
   /// The identity for this machine.
   explicit FrameChange(const Manipulator& machine);
   /// Leg i in the new frame is legs[i] in the old one; the motors follow.
-  void relabel(const Manipulator& machine, const std::array<int, leg_count>& legs);
+  void relabel(const Manipulator& machine, const PerLeg<int>& legs);
 
-  Matrix3d turn = Matrix3d::Identity();                 ///< rotation of the world
-  Vector3d origin = Vector3d::Zero();                   ///< the new origin, m, in B
-  Matrix3d platform_turn = Matrix3d::Identity();        ///< the platform's new axes, in M
-  std::array<int, leg_count> leg = {0, 1, 2, 3, 4, 5};  ///< leg i in the new frame is leg[i] in the old one
+  Matrix3d turn = Matrix3d::Identity();           ///< rotation of the world
+  Vector3d origin = Vector3d::Zero();             ///< the new origin, m, in B
+  Matrix3d platform_turn = Matrix3d::Identity();  ///< the platform's new axes, in M
+  PerLeg<int> leg = {0, 1, 2, 3, 4, 5};           ///< leg i in the new frame is leg[i] in the old one
   int legs = leg_count;
-  std::array<int, motor_count> motor = {0, 1, 2, 3, 4, 5};  ///< motor k in the new frame is motor[k] in the old one
-  std::array<bool, motor_count> slides = {};                ///< old motors whose efforts are forces
+  PerMotor<int> motor = {0, 1, 2, 3, 4, 5};  ///< motor k in the new frame is motor[k] in the old one
+  PerMotor<bool> slides = {};                ///< old motors whose efforts are forces
   Units units;
 
   /// The unit of the effort of the old motor k.
-  double effort(int k) const { return slides[static_cast<std::size_t>(k)] ? units.force() : units.torque(); }
+  double effort(int k) const { return slides[k] ? units.force() : units.torque(); }
 
-  Manipulator of(const Manipulator& machine) const;
+  Manipulator transformed(const Manipulator& machine) const;
   template <class S>  // double or Real50
-  Motion<S> of(const Motion<S>& motion) const;
+  Motion<S> transformed(const Motion<S>& motion) const;
   /// Returns null for null.
-  std::shared_ptr<const Load> of(const std::shared_ptr<const Load>& load) const;
+  std::shared_ptr<const Load> transformed(const std::shared_ptr<const Load>& load) const;
   /// Efforts of the motors, N·m or N.
-  Vector6d of(const Vector6d& torques) const;
+  Vector6d transformed(const Vector6d& torques) const;
   /// Transforms machine, trajectory and load of the scenario; text and settings stay. Keeps the trajectory alive.
-  Scenario of(const Scenario& scenario) const;
+  Scenario transformed(const Scenario& scenario) const;
+  /// Returns the same without the shift of the origin.
+  FrameChange unshifted() const;
 
   // Convert answers from the new frame to the old one.
   Vector6d torquesBack(const Vector6d& torques) const;

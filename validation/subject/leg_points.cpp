@@ -12,7 +12,7 @@ std::vector<LegPoints> legPoints(const Manipulator& machine, const NocWorkspace<
   std::vector<LegPoints> out;
   for (int i = 0; i < machine.legCount(); ++i) {
     const Leg& leg = machine.leg(i);
-    const LegState<double>& state = work.legs[static_cast<std::size_t>(i)];
+    const LegState<double>& state = work.legs[i];
     LegPoints points;
     points.A = leg.base_point;
     points.S = points.A + state.O_2;

@@ -112,7 +112,7 @@ void checkMotion(const Scenario& scenario) {
   }
 }
 
-ScenarioError unmade(const Scenario& scenario, const PoseError& refusal) {
+ScenarioError motionRefusal(const Scenario& scenario, const PoseError& refusal) {
   if (dynamic_cast<const SingularJacobian*>(&refusal) != nullptr)
     if (const auto found = singularEverywhere(scenario))
       return ScenarioError(
@@ -125,7 +125,7 @@ void tryMotion(const Scenario& scenario) {
   try {
     checkMotion(scenario);
   } catch (const PoseError& refusal) {
-    throw unmade(scenario, refusal);
+    throw motionRefusal(scenario, refusal);
   }
 }
 

@@ -16,9 +16,9 @@ void checkMotion(const Scenario& scenario);
 /// Returns the same error for people, at the scenario's [trajectory]: `file:line:column: error: the motion cannot be
 /// made: leg 3 …`. It gives the instant and the violation there, and where the violation is largest. A machine that is
 /// singular in every pose is named at its legs.
-ScenarioError unmade(const Scenario& scenario, const PoseError& refusal);
+ScenarioError motionRefusal(const Scenario& scenario, const PoseError& refusal);
 
-/// Calls checkMotion and throws its error in the form of `unmade`.
+/// Calls checkMotion and throws its error in the form of `motionRefusal`.
 void tryMotion(const Scenario& scenario);
 
 }  // namespace ursula

@@ -6,7 +6,7 @@ namespace ursula {
 
 void Parameter::disturb(ManipulatorParameters& machine, double relative) const {
   if (turns) {
-    Vector3d& u = machine.legs[static_cast<std::size_t>(leg)].base_axis;
+    Vector3d& u = machine.legs[leg].base_axis;
     const Vector3d across = u.unitOrthogonal();
     const Vector3d about = entry == 0 ? across : Vector3d(u.normalized().cross(across));
     u = Eigen::AngleAxisd(relative, about) * u;

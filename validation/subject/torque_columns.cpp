@@ -199,8 +199,8 @@ void arrange(const std::vector<TorqueColumn>& columns, CsvTable& table) {
     const int power = columns[i].power;
     const double unit = std::pow(10.0, std::abs(power));
     table.names[i] = columns[i].name;
-    table.columns[i] = given.columns[static_cast<std::size_t>(from)];
-    table.last_places[i] = given.last_places[static_cast<std::size_t>(from)];
+    table.columns[i] = given.columns[from];
+    table.last_places[i] = given.last_places[from];
     for (double& value : table.columns[i]) value = power < 0 ? value / unit : value * unit;
     for (int& place : table.last_places[i]) place += power;
   }

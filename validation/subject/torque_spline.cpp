@@ -17,8 +17,7 @@ constexpr double between_points = 2;  // 1/cos(6π/(2·9))
 std::array<double, point_count> chebyshevPoints(double from, double to) {
   std::array<double, point_count> points{};
   for (int m = 0; m < point_count; ++m)
-    points[static_cast<std::size_t>(m)] =
-        0.5 * (from + to) - 0.5 * (to - from) * std::cos((2 * m + 1) * pi / (2 * point_count));
+    points[m] = 0.5 * (from + to) - 0.5 * (to - from) * std::cos((2 * m + 1) * pi / (2 * point_count));
   return points;
 }
 

@@ -29,7 +29,7 @@ class TransformedTrajectory final : public ExactTrajectory {
  private:
   template <class S>
   Motion<S> changed(const S& t) const {
-    Motion<S> motion = frame_change_.of(from_->at(S(t * frame_change_.units.time)));
+    Motion<S> motion = frame_change_.transformed(from_->at(S(t * frame_change_.units.time)));
     motion.t = t;  // the requested instant, to the last bit
     return motion;
   }
@@ -121,13 +121,19 @@ Scenario relocated(const Scenario& scenario, const Vector3d& origin) {
   return out;
 }
 
-Scenario FrameChange::of(const Scenario& scenario) const {
+FrameChange FrameChange::unshifted() const {
+  FrameChange out = *this;
+  out.origin.setZero();
+  return out;
+}
+
+Scenario FrameChange::transformed(const Scenario& scenario) const {
   Scenario out = scenario;
-  out.manipulator = std::make_shared<const Manipulator>(of(*scenario.manipulator));
+  out.manipulator = std::make_shared<const Manipulator>(transformed(*scenario.manipulator));
   FrameChange about_origin = *this;
   about_origin.origin.setZero();
   out.trajectory = std::make_shared<const TransformedTrajectory>(shifted(scenario.trajectory, origin), about_origin);
-  out.load = of(scenario.load);
+  out.load = transformed(scenario.load);
   return out;
 }
 
@@ -140,7 +146,7 @@ FrameChange randomFrameChange(unsigned seed, double size, const Manipulator& mac
   out.turn = randomTurn(engine);
   out.platform_turn = randomTurn(engine);
   out.origin = size * Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
-  std::array<int, leg_count> legs = out.leg;
+  PerLeg<int> legs = out.leg;
   for (std::size_t i = machine.parameters().legs.size() - 1; i > 0; --i) std::swap(legs[i], legs[engine() % (i + 1)]);
   out.relabel(machine, legs);
   out.units = {uniform(0.6, 1.9), uniform(0.6, 1.9), uniform(0.6, 1.9), {}};
@@ -167,32 +173,32 @@ Subject transformed(const Subject& subject, const FrameChange& to) {
   Subject out;
   static_cast<JudgedSubject&>(out) = subject;
   out.most_questions = subject.most_questions;
-  out.torques = [=](const Motion<double>& motion) { return to.of(subject.torques(from.of(motion))); };
+  out.torques = [=](const Motion<double>& motion) { return to.transformed(subject.torques(from.transformed(motion))); };
   if (subject.foresee)
     out.foresee = [=](std::vector<Motion<double>> motions) {
-      for (Motion<double>& motion : motions) motion = from.of(motion);
+      for (Motion<double>& motion : motions) motion = from.transformed(motion);
       subject.foresee(motions);
     };
   if (subject.answers)
     out.answers = [=] {
       std::vector<Answered> all = subject.answers();
-      for (Answered& each : all) each = {each.t / units.time, to.of(each.torques)};
+      for (Answered& each : all) each = {each.t / units.time, to.transformed(each.torques)};
       return all;
     };
   if (subject.kinematics)
     out.kinematics = [=](const Motion<double>& motion) {
-      return answerIn(to, from, subject.kinematics(from.of(motion)));
+      return answerIn(to, from, subject.kinematics(from.transformed(motion)));
     };
   if (subject.accelerations)
     out.accelerations = [=](const Motion<double>& motion, const Vector6d& torques) {
-      Vector6d found = subject.accelerations(from.of(motion), from.of(torques));
+      Vector6d found = subject.accelerations(from.transformed(motion), from.transformed(torques));
       found.head<3>() *= units.time * units.time;
       found.tail<3>() /= units.acceleration();
       return found;
     };
   if (subject.complement)
     out.complement = [=](const Motion<double>& motion) {
-      Complement found = subject.complement(from.of(motion));
+      Complement found = subject.complement(from.transformed(motion));
       for (Eigen::Index body = 0; body < body_count; ++body) {
         found.T.middleRows(6 * body + 3, 3) /= units.length;
         found.D.middleCols(6 * body + 3, 3) *= units.length;
@@ -200,13 +206,15 @@ Subject transformed(const Subject& subject, const FrameChange& to) {
       return found;
     };
   if (subject.reactions)
-    out.reactions = [=](const Motion<double>& motion) { return from.back(subject.reactions(from.of(motion))); };
+    out.reactions = [=](const Motion<double>& motion) {
+      return from.back(subject.reactions(from.transformed(motion)));
+    };
   if (subject.rebuilt)
     out.rebuilt = [=](const Manipulator& machine) {
       FrameChange there(machine);  // its motors may have another order
       there.origin = to.origin;
       there.units = to.units;
-      return transformed(subject.rebuilt(from.of(machine)), there);
+      return transformed(subject.rebuilt(from.transformed(machine)), there);
     };
   return out;
 }

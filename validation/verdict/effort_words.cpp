@@ -55,7 +55,7 @@ std::string inEffortWords(const std::string& noun, const std::string& text) {
   return out;
 }
 
-void sayEfforts(ValidationResult& result) {
+void addEffortWords(ValidationResult& result) {
   const auto say = [&result](std::string& text) { text = inEffortWords(result.effort, text); };
   for (Check& check : result.checks) say(check.basis), say(check.why), say(check.off);
   for (Finding& finding : result.findings) say(finding.name), say(finding.words);

@@ -15,6 +15,6 @@ std::string effortNoun(const Motors& motors);
 std::string inEffortWords(const std::string& noun, const std::string& text);
 
 /// Rewrites every text of the result in its efforts' noun.
-void sayEfforts(ValidationResult& result);
+void addEffortWords(ValidationResult& result);
 
 }  // namespace ursula

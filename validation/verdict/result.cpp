@@ -197,7 +197,7 @@ void TimeSeries::add(std::string column_name, std::vector<double> values) {
 
 const std::vector<double>* TimeSeries::find(const std::string& column_name) const {
   const auto found = std::find(names.begin(), names.end(), column_name);
-  return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];
+  return found == names.end() ? nullptr : &columns[found - names.begin()];
 }
 
 std::string textOf(const Finding& finding) {

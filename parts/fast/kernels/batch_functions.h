@@ -14,9 +14,9 @@ namespace ursula::kernel {
 /// The properties of a machine that are not real numbers.
 struct MachineShape {
   int legs = 0;
-  std::array<LegKind, leg_count> kinds{};
-  std::array<std::array<int, 3>, leg_count> motors{};
-  std::array<bool, leg_count> has_friction{}, has_coulomb{}, principal{}, has_rotor{}, off_line{};
+  PerLeg<LegKind> kinds{};
+  PerLeg<std::array<int, 3>> motors{};
+  PerLeg<bool> has_friction{}, has_coulomb{}, principal{}, has_rotor{}, off_line{};
 };
 
 /// Contiguous entries with the layout of Motion<double> and Vector6d. `loads` may be null.

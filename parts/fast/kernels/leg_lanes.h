@@ -40,7 +40,7 @@ class LegLanes {
     MachineShape packed = shape;
     packed.legs = groups;
     for (int g = 0; g < groups; ++g)
-      for (int& motor : packed.motors[static_cast<std::size_t>(g)]) motor = motor < 0 ? -1 : g;
+      for (int& motor : packed.motors[g]) motor = motor < 0 ? -1 : g;
     copyShape(packed, out->machine_);
     MachineModel<P> platform;  // has no legs
     std::ptrdiff_t of_platform = 0, of_all = 0;
@@ -103,7 +103,7 @@ class LegLanes {
     System6<P> system;
     for (int g = 0; g < groups; ++g) {
       Vector6<P> share = Vector6<P>::Zero();
-      addLeg<P>(machine_, static_cast<std::size_t>(g), legs[static_cast<std::size_t>(g)], share, Q, A, system);
+      addLeg<P>(machine_, g, legs[g], share, Q, A, system);
       for (int r = 0; r < 6; ++r) wrench(r) += upTo(6 - g * lanes, share(r));
       Q(g).v.store_unaligned(out.Q + g * lanes);
       A(g).v.store_unaligned(out.A + g * lanes);
@@ -134,7 +134,7 @@ class LegLanes {
       on_motors(g) = P(P::Batch::load_aligned(values));
       Vector6<P> share = Vector6<P>::Zero();
       Matrix6<P> mass = Matrix6<P>::Zero();
-      addLegMass<P>(machine_, static_cast<std::size_t>(g), legs[static_cast<std::size_t>(g)], on_motors, share, mass);
+      addLegMass<P>(machine_, g, legs[g], on_motors, share, mass);
       for (int r = 0; r < 6; ++r) wrench(r) += upTo(6 - g * lanes, share(r));
       for (int c = 0; c < 6; ++c)
         for (int r = c; r < 6; ++r) M_P(r, c) += upTo(6 - g * lanes, mass(r, c));

@@ -18,7 +18,7 @@ void forEachNumber(Model& machine, const F& f) {
   all(machine.rho);
   all(machine.gravity);
   all(machine.I_M);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(machine.legs_in_all); ++i) {
+  for (int i = 0; i < machine.legs_in_all; ++i) {
     auto& leg = machine.legs[i];
     all(leg.minus_gravity);
     all(leg.a);
@@ -44,7 +44,7 @@ template <class S>
 MachineShape shapeOf(const MachineModel<S>& machine) {
   MachineShape out;
   out.legs = machine.legs_in_all;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(out.legs); ++i) {
+  for (int i = 0; i < out.legs; ++i) {
     out.kinds[i] = machine.legs[i].kind;
     out.motors[i] = machine.legs[i].motor;
     out.has_friction[i] = machine.legs[i].has_friction;
@@ -59,7 +59,7 @@ MachineShape shapeOf(const MachineModel<S>& machine) {
 template <class S>
 void copyShape(const MachineShape& shape, MachineModel<S>& to) {
   to.legs_in_all = shape.legs;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(shape.legs); ++i) {
+  for (int i = 0; i < shape.legs; ++i) {
     to.legs[i].kind = shape.kinds[i];
     to.legs[i].motor = shape.motors[i];
     to.legs[i].has_friction = shape.has_friction[i];

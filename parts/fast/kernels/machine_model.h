@@ -21,7 +21,7 @@ struct PlaneModel : LegModel<S> {
 /// The constants of the motion.
 template <class S>
 struct MachineModel {
-  std::array<PlaneModel<S>, leg_count> legs;
+  PerLeg<PlaneModel<S>> legs;
   int legs_in_all = 0;
   S mass, per_length;  ///< the platform's mass; 1 over a length of the machine's size
   Vector3<S> rho, gravity;
@@ -72,8 +72,7 @@ MachineModel<S> machineModel(const MachineParameters<S>& from) {
   out.I_M = from.I_M;
   out.gravity = from.gravity;
   out.per_length = S(1) / from.length;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(out.legs_in_all); ++i)
-    out.legs[i] = planeModel<S>(from.legs[i], out.gravity);
+  for (int i = 0; i < out.legs_in_all; ++i) out.legs[i] = planeModel<S>(from.legs[i], out.gravity);
   return out;
 }
 

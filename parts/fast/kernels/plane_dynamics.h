@@ -76,7 +76,7 @@ void eachCoordinate(const F& f) {
   f(std::integral_constant<std::size_t, 2>{});
 }
 
-/// Forces against viscous and smoothed Coulomb friction of a leg's joints. Unlike frictionForce of noc_impl.h, this has
+/// Forces against viscous and smoothed Coulomb friction of a leg's joints. Unlike frictionForce of the NOC, this has
 /// no branch on the rate, because a pack cannot branch.
 template <class S>
 Vector3<S> friction(const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
@@ -146,7 +146,7 @@ struct MovingLeg {
   Vector3<S> Q;
 };
 template <class S>
-using MovingLegs = std::array<MovingLeg<S>, leg_count>;
+using MovingLegs = PerLeg<MovingLeg<S>>;
 
 /// All legs pass a stage before the next begins. A processor then overlaps them, because no leg waits for another's
 /// roots and quotients. guardOf(i) creates each leg's guard.
@@ -154,7 +154,7 @@ template <class S, class GuardOf>
 void moveLegs(const MachineModel<S>& machine, const Motion<S>& motion, const RigidMotion<S>& carried,
               const GuardOf& guardOf, MovingLegs<S>& legs) {
   const auto each = [&](const auto& stage) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(machine.legs_in_all); ++i)
+    for (int i = 0; i < machine.legs_in_all; ++i)
       withKind(machine.legs[i].kind, [&](auto kind) { stage(kind, i, machine.legs[i], legs[i]); });
   };
   each([&](auto kind, std::size_t i, const PlaneModel<S>& model, MovingLeg<S>& leg) {
@@ -220,8 +220,7 @@ Vector6<S> inverseDynamics(const MachineModel<S>& machine, const Motion<S>& moti
   System6<S> system;
   MovingLegs<S> legs;
   moveLegs<S>(machine, motion, carried, guardOf, legs);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(machine.legs_in_all); ++i)
-    addLeg<S>(machine, i, legs[i], wrench, efforts, A, system);
+  for (int i = 0; i < machine.legs_in_all; ++i) addLeg<S>(machine, i, legs[i], wrench, efforts, A, system);
   for (int row = 0; row < 3; ++row) {
     system.a[row][6] = machine.per_length * wrench(row);
     system.a[3 + row][6] = wrench(3 + row);
@@ -295,8 +294,7 @@ Vector6<S> directDynamics(const MachineModel<S>& machine, const Motion<S>& motio
   addPlatform<S>(machine, motion, carried, wrench, M_P);
   MovingLegs<S> legs;
   moveLegs<S>(machine, motion, carried, guardOf, legs);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(machine.legs_in_all); ++i)
-    addLegMass<S>(machine, i, legs[i], efforts, wrench, M_P);
+  for (int i = 0; i < machine.legs_in_all; ++i) addLegMass<S>(machine, i, legs[i], efforts, wrench, M_P);
   return solvePositive<S>(M_P, wrench);  // (36)
 }
 

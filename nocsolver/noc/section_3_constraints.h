@@ -1,11 +1,10 @@
 #pragma once
 
-// The quantities that the complement eliminates: the velocity constraints of (33) and the joint reactions. Sources that
-// instantiate Noc include it.
+// Section 3 of the paper: what the complement eliminates, the velocity constraints of (33) and the joint reactions.
 
 #include <Eigen/Geometry>
 
-#include "nocsolver/noc/noc_impl.h"
+#include "nocsolver/noc/section_3_dynamics.h"
 
 namespace ursula {
 namespace legs {
@@ -31,9 +30,9 @@ class ConstraintRows {
             int first, int last) {
     Directions turning(3, 0), sliding(3, 0);
     for (int j = first; j < last; ++j) {
-      Directions& axes = slides(rowOf(leg.kind).coordinates[legs::at(j)]) ? sliding : turning;
+      Directions& axes = slides(rowOf(leg.kind).coordinates[j]) ? sliding : turning;
       axes.conservativeResize(3, axes.cols() + 1);
-      axes.col(axes.cols() - 1) = at.axis[legs::at(j)];
+      axes.col(axes.cols() - 1) = at.axis[j];
     }
     const Directions stiff = across(turning);
     for (const auto& column : stiff.colwise()) {
@@ -91,10 +90,10 @@ Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> Noc<S>::D(const Motion<S>& moti
   const typename Rows::Body base{-1, Vector3<S>::Zero()}, platform{6 * legs::platform, work.bodies.back().c};
   Rows rows(12 * machine_.legs_in_all);
   for (int i = 0; i < machine_.legs_in_all; ++i) {
-    const LegModel<S>& leg = machine_.legs[legs::at(i)];
-    const LegState<S>& at = work.legs[legs::at(i)];
-    const typename Rows::Body first{6 * i, work.bodies[legs::at(i)].c};
-    const typename Rows::Body second{6 * (leg_count + i), work.bodies[legs::at(leg_count + i)].c};
+    const LegModel<S>& leg = machine_.legs[i];
+    const LegState<S>& at = work.legs[i];
+    const typename Rows::Body first{6 * i, work.bodies[i].c};
+    const typename Rows::Body second{6 * (leg_count + i), work.bodies[leg_count + i].c};
     const int before = rowOf(leg.kind).joints_of_proximal;
     const Vector3<S> R_ = leg.a + at.O_2, B = sphericalPoint(motion, i, at);
     rows.join(base, first, leg.a + at.O_1, leg, at, 0, before);
@@ -118,8 +117,8 @@ Reactions Noc<S>::reactions(const Motion<S>& motion, const Vector6<S>& efforts, 
   const BodyVector<S> moving = -inertiaWrench(work) - gravityWrench(), w_d = dissipativeWrench(work);
   Reactions out;
   for (int i = 0; i < machine_.legs_in_all; ++i) {
-    const LegModel<S>& leg = machine_.legs[legs::at(i)];
-    const LegState<S>& at = work.legs[legs::at(i)];
+    const LegModel<S>& leg = machine_.legs[i];
+    const LegState<S>& at = work.legs[i];
     const auto block = [](const BodyVector<S>& w, int body) { return Vector6<S>(legs::block(w, body)); };
     const Vector6<S> w_1 = block(moving, i), w_2 = block(moving, leg_count + i);
     const UnitTwists unit = unitTwists(i, at, false);
@@ -127,17 +126,17 @@ Reactions Noc<S>::reactions(const Motion<S>& motion, const Vector6<S>& efforts, 
         unit.first.transpose() * (w_1 - block(w_d, i)) + unit.second.transpose() * (w_2 - block(w_d, leg_count + i));
     Vector3<S> f_B = Vector3<S>::Zero();  // force of the undriven loads on the platform, by the rows of (22)
     for (int j = 0; j < 3; ++j) {
-      const int motor = leg.motor[legs::at(j)];
-      const JacobianRow<S>& row = at.row[legs::at(j)];
+      const int motor = leg.motor[j];
+      const JacobianRow<S>& row = at.row[j];
       f_B += (((motor >= 0 ? on_links(motor) : S(0)) - Q(j)) / row.A) * row.n;
     }
     const Vector3<S> A = leg.a + at.O_1, R_ = leg.a + at.O_2, B = motion.p + at.Qb;
-    const Vector3<S>&c_1 = work.bodies[legs::at(i)].c, &c_2 = work.bodies[legs::at(leg_count + i)].c;
+    const Vector3<S>&c_1 = work.bodies[i].c, &c_2 = work.bodies[leg_count + i].c;
     const Vector3<S> f_R = w_2.template tail<3>() + f_B;
     const Vector3<S> n_R = w_2.template head<3>() - (R_ - c_2).cross(f_R) + (B - c_2).cross(f_B);
     const Vector3<S> f_A = w_1.template tail<3>() + f_R;
     const Vector3<S> n_A = w_1.template head<3>() + n_R - (A - c_1).cross(f_A) + (R_ - c_1).cross(f_R);
-    LegReactions& to = out[legs::at(i)];
+    LegReactions& to = out[i];
     to.f_B = f_B.template cast<double>();
     to.f_R = f_R.template cast<double>();
     to.n_R = n_R.template cast<double>();

@@ -1,6 +1,6 @@
 #pragma once
 
-// Section 2 of the paper, for legs of all kinds; included by noc_impl.h.
+// Section 2 of the paper, kinematics (1)–(26), for legs of all kinds.
 
 #include <cmath>
 
@@ -8,13 +8,9 @@
 #include "nocsolver/noc/noc.h"
 
 namespace ursula {
-namespace legs {
-inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
-}  // namespace legs
-
 template <class S>
 void Noc<S>::place(const Motion<S>& motion, int i, LegState<S>& out) const {
-  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  const LegModel<S>& leg = machine_.legs[i];
   out.Qb.noalias() = motion.Q * leg.b;
   out.AB = (motion.p - leg.a) + out.Qb;  // (paper, eq. 3), in an order that keeps digits far from the base's origin
   displacement(i, motion.t, out);
@@ -23,7 +19,7 @@ void Noc<S>::place(const Motion<S>& motion, int i, LegState<S>& out) const {
 
 template <class S>
 void Noc<S>::displacement(int i, const S& t, LegState<S>& out) const {
-  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  const LegModel<S>& leg = machine_.legs[i];
   legs::withLeg(leg.kind, [&](auto kind) {
     kind.displacement(leg, i, t, out);
     setFrames(leg, out);
@@ -42,41 +38,41 @@ void Noc<S>::setFrames(const LegModel<S>& leg, LegState<S>& out) {
 
 template <class S>
 void Noc<S>::rows(int i, LegState<S>& out) const {
-  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  const LegModel<S>& leg = machine_.legs[i];
   legs::withLeg(leg.kind, [&](auto kind) { kind.rows(leg, out); });
 }
 
 template <class S>
 void Noc<S>::rowRates(int i, LegState<S>& out) const {
-  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  const LegModel<S>& leg = machine_.legs[i];
   legs::withLeg(leg.kind, [&](auto kind) { kind.rowRates(leg, out); });
 }
 
 template <class S>
 Vector3<S> Noc<S>::jointRates(int i, const LegState<S>& at, const Vector3<S>& v_B) const {
-  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  const LegModel<S>& leg = machine_.legs[i];
   return legs::withLeg(leg.kind, [&](auto kind) { return Vector3<S>(kind.rates(leg, at, v_B)); });
 }
 
 template <class S>
 Vector3<S> Noc<S>::jointAccelerations(int i, const LegState<S>& at, const Vector3<S>& rate, const Vector3<S>& v_B,
                                       const Vector3<S>& a_B) const {
-  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  const LegModel<S>& leg = machine_.legs[i];
   return legs::withLeg(leg.kind, [&](auto kind) { return Vector3<S>(kind.accelerations(leg, at, rate, v_B, a_B)); });
 }
 
 template <class S>
 void Noc<S>::displacements(const Motion<S>& motion, NocWorkspace<S>& work) const {
   work.Q = motion.Q;
-  for (int i = 0; i < machine_.legs_in_all; ++i) place(motion, i, work.legs[legs::at(i)]);
+  for (int i = 0; i < machine_.legs_in_all; ++i) place(motion, i, work.legs[i]);
 }
 
 template <class S>
 void Noc<S>::inverseKinematics(const Motion<S>& motion, NocWorkspace<S>& work) const {
   work.Q = motion.Q;
   for (int i = 0; i < machine_.legs_in_all; ++i) {
-    const LegModel<S>& leg = machine_.legs[legs::at(i)];
-    LegState<S>& at = work.legs[legs::at(i)];
+    const LegModel<S>& leg = machine_.legs[i];
+    LegState<S>& at = work.legs[i];
     place(motion, i, at);
     const Vector3<S> across = motion.omega.cross(at.Qb);
     at.v_B = motion.p_dot + across;
@@ -95,7 +91,7 @@ JointVariables<S> collect(const MachineParameters<S>& machine, const F& f) {
   JointVariables<S> q;
   for (int i = 0; i < machine.legs_in_all; ++i)
     for (int j = 0; j < 3; ++j) {
-      const Coordinate coordinate = rowOf(machine.legs[at(i)].kind).coordinates[at(j)];
+      const Coordinate coordinate = rowOf(machine.legs[i].kind).coordinates[j];
       q.of(coordinate)(i) = f(i, j, coordinate);
     }
   return q;
@@ -106,13 +102,13 @@ template <class S>
 JointVariables<S> Noc<S>::angles(const NocWorkspace<S>& work) const {
   using std::atan2;
   JointVariables<S> q = legs::collect(machine_, [&](int i, int j, Coordinate coordinate) {
-    const LegState<S>& at = work.legs[legs::at(i)];
-    if (slides(coordinate)) return at.cosine[legs::at(j)];
-    return S(atan2(at.sine[legs::at(j)], at.cosine[legs::at(j)]));  // (paper, eqs. 4a, 14a)
+    const LegState<S>& at = work.legs[i];
+    if (slides(coordinate)) return at.cosine[j];
+    return S(atan2(at.sine[j], at.cosine[j]));  // (paper, eqs. 4a, 14a)
   });
   for (int i = 0; i < machine_.legs_in_all; ++i) {
-    const LegModel<S>& leg = machine_.legs[legs::at(i)];
-    const LegState<S>& at = work.legs[legs::at(i)];
+    const LegModel<S>& leg = machine_.legs[i];
+    const LegState<S>& at = work.legs[i];
     if (leg.kind != LegKind::URS) continue;
     q.psi(i) = atan2(S(leg.s * at.sine[2]), S(leg.l - leg.s * at.cosine[2])) +
                atan2(S(at.AB.cross(leg.u).norm()), S(at.AB.dot(leg.u)));  // (paper, eq. 14b)
@@ -122,20 +118,20 @@ JointVariables<S> Noc<S>::angles(const NocWorkspace<S>& work) const {
 
 template <class S>
 JointVariables<S> Noc<S>::rates(const NocWorkspace<S>& work) const {
-  return legs::collect(machine_, [&](int i, int j, Coordinate) { return work.legs[legs::at(i)].rate(j); });
+  return legs::collect(machine_, [&](int i, int j, Coordinate) { return work.legs[i].rate(j); });
 }
 
 template <class S>
 JointVariables<S> Noc<S>::accelerations(const NocWorkspace<S>& work) const {
-  return legs::collect(machine_, [&](int i, int j, Coordinate) { return work.legs[legs::at(i)].acceleration(j); });
+  return legs::collect(machine_, [&](int i, int j, Coordinate) { return work.legs[i].acceleration(j); });
 }
 
 template <class S>
 void Noc<S>::jacobians(const Motion<S>& motion, NocWorkspace<S>& work) const {
   for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = machine_.motors[legs::at(m)];
-    const LegState<S>& leg = work.legs[legs::at(motor.leg)];
-    const JacobianRow<S>& row = leg.row[legs::at(motor.joint)];
+    const Motor& motor = machine_.motors[m];
+    const LegState<S>& leg = work.legs[motor.leg];
+    const JacobianRow<S>& row = leg.row[motor.joint];
     const S size = row.n.norm();
     const Vector3<S> n = row.n / size;
     work.A(m) = row.A / size;
@@ -161,9 +157,9 @@ Matrix6<S> Noc<S>::platformShapingRate(const Motion<S>& motion, const NocWorkspa
   Matrix6<S> B_dot;
   Vector6<S> A_dot;
   for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = machine_.motors[legs::at(m)];
-    const LegState<S>& leg = work.legs[legs::at(motor.leg)];
-    const JacobianRow<S>& row = leg.row[legs::at(motor.joint)];
+    const Motor& motor = machine_.motors[m];
+    const LegState<S>& leg = work.legs[motor.leg];
+    const JacobianRow<S>& row = leg.row[motor.joint];
     const S size = row.n.norm();
     const Vector3<S> n = row.n / size, n_dot = row.n_dot / size;  // scaling a row leaves (25) unchanged
     const Vector3<S> Qb_dot = motion.omega.cross(leg.Qb);
