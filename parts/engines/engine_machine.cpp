@@ -23,7 +23,7 @@ class SteppedMachine : public SteppedLoop {
   void step(const Vector6d& efforts) override {
     machine_->addFrictionAndLoad(load_.get(), time_);
     for (int m = 0; m < motor_count; ++m) {
-      const Motor& motor = machine_->manipulator.motors()[static_cast<std::size_t>(m)];
+      const Motor& motor = machine_->manipulator.motors()[m];
       machine_->addEffort(motor.leg, motor.joint, efforts(m));
     }
     machine_->step(step_);
@@ -84,7 +84,7 @@ std::unique_ptr<SteppedLoop> steppedMachine(const char* engine, const Manipulato
 }
 
 double rotorForce(const Leg& leg, int j, double acceleration) {
-  return leg.rotor_inertia.on(rowOf(leg.kind).coordinates[static_cast<std::size_t>(j)]) * acceleration;
+  return leg.rotor_inertia.on(rowOf(leg.kind).coordinates[j]) * acceleration;
 }
 
 }  // namespace ursula

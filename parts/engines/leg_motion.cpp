@@ -28,7 +28,7 @@ void passJoint(const Vector3d& origin, const Vector3d& axis, bool slides, double
 void moveBodies(const LegChain& chain, LegMotion& state) {
   ChainBody body;
   for (int j = 0; j < 3; ++j) {
-    const auto k = static_cast<std::size_t>(j), link = static_cast<std::size_t>(chain.linkOf(j));
+    const std::size_t k = j, link = chain.linkOf(j);
     passJoint(state.at.anchors[k], state.at.axes[k], chain.slides(j), state.rates(j), state.accelerations(j), body);
     state.bodies[link] = body;
     state.bodies[link].frame = state.at.links[link];
@@ -74,7 +74,7 @@ LegMotion legState(const LegChain& chain, const Leg& leg, int index, const Motio
 Vector3d frictionOn(const Leg& leg, const Vector3d& rates) {
   Vector3d out;
   for (Eigen::Index j = 0; j < 3; ++j) {
-    const Coordinate coordinate = rowOf(leg.kind).coordinates[static_cast<std::size_t>(j)];
+    const Coordinate coordinate = rowOf(leg.kind).coordinates[j];
     out(j) = -leg.friction.on(coordinate) * rates(j) -
              leg.coulomb.on(coordinate) * std::tanh(rates(j) / leg.coulomb.speedOf(coordinate));
   }

@@ -24,10 +24,9 @@ class DartCalls : public LoopEngine {
     machine_.skeleton->computeInverseDynamics();
     for (int i = 0; i < manipulator().legCount(); ++i) {
       const Vector3d acts = machine_.friction(i);
-      const auto index = static_cast<std::size_t>(i);
       for (int j = 0; j < 3; ++j) {
-        const auto [joint, which] = machine_.legs[index].place(j);
-        tree_.legs[index].force(j) =
+        const auto [joint, which] = machine_.legs[i].place(j);
+        tree_.legs[i].force(j) =
             joint->getForce(which) - acts(j) + rotorForce(manipulator().leg(i), j, joint->getAcceleration(which));
       }
     }

@@ -49,8 +49,7 @@ MujocoLoop::Impl::Impl(const Manipulator& from, std::shared_ptr<const Load> on_p
       model(mujoco::buildModel(from, origin)),
       data(mujoco::dataOf(*model)),
       G(leg_dofs, dofs) {
-  for (int leg = 0; leg < legs; ++leg)
-    offset_of_phi[static_cast<std::size_t>(leg)] = mujoco::offsetOfPhi(manipulator.leg(leg));
+  for (int leg = 0; leg < legs; ++leg) offset_of_phi[leg] = mujoco::offsetOfPhi(manipulator.leg(leg));
 }
 
 void MujocoLoop::Impl::place(const Motion<double>& motion) {
@@ -150,7 +149,7 @@ Vector6d MujocoLoop::inverseDynamics(const Motion<double>& motion) {
   SquareOfDofs multipliers_and_efforts = SquareOfDofs::Zero(dofs, dofs);
   multipliers_and_efforts.leftCols(leg_dofs) = impl_->G.transpose();
   for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = impl_->manipulator.motors()[static_cast<std::size_t>(m)];
+    const Motor& motor = impl_->manipulator.motors()[m];
     multipliers_and_efforts(dofOf(motor.leg, motor.joint), leg_dofs + m) = 1;
   }
   const Eigen::PartialPivLU<SquareOfDofs> factors(multipliers_and_efforts);
@@ -172,16 +171,15 @@ void MujocoLoop::coordinates(const Motion<double>& motion, const JointMotion& jo
                              TreeCoordinates& out) const {
   const Impl& loop = *impl_;
   out.motion = motion;
-  out.q.resize(static_cast<std::size_t>(loop.dofs + 1));
-  out.u.resize(static_cast<std::size_t>(loop.dofs));
+  out.q.resize(loop.dofs + 1);
+  out.u.resize(loop.dofs);
   out.u_dot.resize(out.u.size());
   for (int leg = 0; leg < loop.legs; ++leg) {
     for (int joint = 0; joint < mujoco::joints_per_leg; ++joint) {
-      const auto at = static_cast<std::size_t>(dofOf(leg, joint));
+      const std::size_t at = dofOf(leg, joint);
       const Leg& from = loop.manipulator.leg(leg);
-      const Coordinate coordinate = rowOf(from.kind).coordinates[static_cast<std::size_t>(joint)];
-      out.q[at] =
-          joint_motion.q.of(coordinate)(leg) + (joint == 0 ? loop.offset_of_phi[static_cast<std::size_t>(leg)] : 0);
+      const Coordinate coordinate = rowOf(from.kind).coordinates[joint];
+      out.q[at] = joint_motion.q.of(coordinate)(leg) + (joint == 0 ? loop.offset_of_phi[leg] : 0);
       out.u[at] = joint_motion.q_dot.of(coordinate)(leg);
       out.u_dot[at] = joint_motion.q_ddot.of(coordinate)(leg);
     }
@@ -220,7 +218,7 @@ void MujocoLoop::Impl::readMaps(const mjModel& in_model, mjData& in_data, OpenTr
   using PointJacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, most_dofs>;
   PointJacobian jacobian(3, dofs);
   for (int i = 0; i < legs; ++i) {
-    OpenTree::Leg& leg = out.legs[static_cast<std::size_t>(i)];
+    OpenTree::Leg& leg = out.legs[i];
     mj_jacSite(&in_model, &in_data, jacobian.data(), nullptr, siteOnLeg(i));
     leg.J = jacobian.middleCols<3>(dofOf(i, 0));
     mj_jacSite(&in_model, &in_data, jacobian.data(), nullptr, siteOnPlatform(legs, i));
@@ -231,7 +229,7 @@ void MujocoLoop::Impl::readMaps(const mjModel& in_model, mjData& in_data, OpenTr
 void MujocoLoop::Impl::readTree(const Motion<double>& motion, const mujoco::VectorOfDofs& forces, OpenTree& out) {
   const mujoco::VectorOfDofs residual = forces - given(*model, *data, motion);
   readMaps(*model, *data, out);
-  for (int i = 0; i < legs; ++i) out.legs[static_cast<std::size_t>(i)].force = residual.segment<3>(dofOf(i, 0));
+  for (int i = 0; i < legs; ++i) out.legs[i].force = residual.segment<3>(dofOf(i, 0));
   out.force = residual.tail<6>();
 }
 
@@ -257,8 +255,8 @@ void MujocoLoop::openTree(const TreeCoordinates& at, OpenTree& out, OpenTreeMass
   mj_rnePostConstraint(loop.model.get(), loop.data.get());
   const mujoco::VectorOfGaps drift = -loop.gapAcceleration();
   for (int i = 0; i < loop.legs; ++i) {
-    masses.legs[static_cast<std::size_t>(i)] = mass.block<3, 3>(dofOf(i, 0), dofOf(i, 0));
-    masses.drift[static_cast<std::size_t>(i)] = drift.segment<3>(3 * i);
+    masses.legs[i] = mass.block<3, 3>(dofOf(i, 0), dofOf(i, 0));
+    masses.drift[i] = drift.segment<3>(3 * i);
   }
   masses.platform = mass.bottomRightCorner<6, 6>();
 }
@@ -277,7 +275,7 @@ Vector6d MujocoLoop::softTwistRate(const TreeCoordinates& at, const Vector6d& ef
   const mujoco::VectorOfDofs given = loop.given(*model, *data, at.motion);
   std::copy_n(given.data(), loop.dofs, data->qfrc_applied);
   for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = loop.manipulator.motors()[static_cast<std::size_t>(m)];
+    const Motor& motor = loop.manipulator.motors()[m];
     data->qfrc_applied[dofOf(motor.leg, motor.joint)] += efforts(m);
   }
   mj_forward(model, data);

@@ -80,8 +80,8 @@ struct MujocoLoop::Impl {
   mujoco::Model model;
   mujoco::Data data;
   mujoco::GapJacobian G;
-  std::array<double, leg_count> offset_of_phi{};  ///< MuJoCo's first coordinate of a leg minus φ
-  mujoco::Connected connected;                    ///< created on first use
+  PerLeg<double> offset_of_phi{};  ///< MuJoCo's first coordinate of a leg minus φ
+  mujoco::Connected connected;     ///< created on first use
 };
 
 }  // namespace ursula
