@@ -54,7 +54,7 @@ class Archive {
   }
   template <int rows, int columns>
   void walk(Eigen::Matrix<double, rows, columns>& value) {
-    raw(value.data(), sizeof(double) * static_cast<std::size_t>(value.size()));
+    raw(value.data(), sizeof(double) * value.size());
   }
   template <class Sequence>
   void walkAll(Sequence& values) {

@@ -39,9 +39,8 @@ py::array_t<double> blocks(const Motions& motion, py::ssize_t width, F&& of) {
   py::array_t<double> out({static_cast<py::ssize_t>(motion.rows.size()), py::ssize_t{6}, width});
   double* to = out.mutable_data();
   const Unlocked unlocked;
-  forRows(motion.rows.size(), [&](std::size_t k) {
-    Eigen::Map<Rows>(to + 6 * static_cast<std::size_t>(width) * k, 6, width) = of(motion.rows[k]);
-  });
+  forRows(motion.rows.size(),
+          [&](std::size_t k) { Eigen::Map<Rows>(to + 6 * width * k, 6, width) = of(motion.rows[k]); });
   return out;
 }
 

@@ -28,7 +28,7 @@ MechanismMotion motionAt(const MechanismWithSolver& self, const py::object& t) {
   const double duration = self.scenario.trajectory->duration();
   refuseOutside(instants, duration);
   const double* data = instants.data();
-  const auto count = static_cast<std::size_t>(instants.shape(0));
+  const std::size_t count = instants.shape(0);
   const Unlocked unlocked;
   const LoopMotion& path = self.along().motion();
   LoopWork work;
@@ -59,7 +59,7 @@ py::array_t<double> rowByRow(const MechanismWithSolver& self, const MechanismMot
   const Unlocked unlocked;
   const LoopMotion& path = self.along().motion();
   LoopWork work;
-  forRows(static_cast<std::size_t>(motion.t.size()), [&](std::size_t k) {
+  forRows(motion.t.size(), [&](std::size_t k) {
     const auto at = static_cast<Eigen::Index>(k);
     const Eigen::VectorXd values = row(path, at, motion.at(at), work);
     std::copy(values.begin(), values.end(), to + at * self.motors());

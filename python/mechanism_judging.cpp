@@ -52,7 +52,7 @@ auto answersOf(const py::object& solver, py::ssize_t motors) {
     const py::array_t<double> rows = answerOf(py::reinterpret_steal<py::object>(answer), questions.size(), motors,
                                               [&questions](std::size_t k) { return questions[k].motion.t; });
     for (std::size_t k = 0; k < questions.size(); ++k)
-      out.emplace_back(Eigen::Map<const Eigen::VectorXd>(rows.data() + static_cast<std::size_t>(motors) * k, motors));
+      out.emplace_back(Eigen::Map<const Eigen::VectorXd>(rows.data() + motors * k, motors));
     return out;
   };
 }
@@ -78,7 +78,7 @@ MechanismSimulator simulatorOf(const Asked& asked, py::ssize_t motors) {
   out.accelerations = [&asked, motors](const std::vector<MechanismQuestion>& states,
                                        const std::vector<MotorEfforts>& efforts) {
     const Locked locked;
-    const auto width = static_cast<std::size_t>(motors);
+    const std::size_t width = motors;
     py::array_t<double> given({static_cast<py::ssize_t>(states.size()), motors});
     for (std::size_t k = 0; k < efforts.size(); ++k)
       Eigen::Map<Eigen::VectorXd>(given.mutable_data() + width * k, motors) = efforts[k];
@@ -98,8 +98,7 @@ GivenEfforts effortsOf(const MechanismWithSolver& given, const Asked& asked) {
   const std::vector<double> t(instants.data(), instants.data() + count);
   std::vector<MotorEfforts> efforts;
   for (std::size_t k = 0; k < count; ++k)
-    efforts.emplace_back(
-        Eigen::Map<const Eigen::VectorXd>(rows.data() + static_cast<std::size_t>(given.motors()) * k, given.motors()));
+    efforts.emplace_back(Eigen::Map<const Eigen::VectorXd>(rows.data() + given.motors() * k, given.motors()));
   try {
     return givenEfforts(asked.name, t, efforts, *given.scenario.mechanism, given.scenario.trajectory->duration());
   } catch (const CsvError& error) {
@@ -120,8 +119,7 @@ py::array_t<double> answerOf(const py::object& answer, std::size_t instants, py:
   py::array_t<double, py::array::c_style | py::array::forcecast> given(any);  // comes last, because it may copy
   for (std::size_t k = 0; k < instants; ++k)
     for (py::ssize_t i = 0; i < width; ++i)
-      if (const double each = given.data()[static_cast<std::size_t>(width) * k + static_cast<std::size_t>(i)];
-          !std::isfinite(each))
+      if (const double each = given.data()[width * k + i]; !std::isfinite(each))
         throw py::value_error("the " + std::string(whose) + "'s " + what + " " + std::to_string(i + 1) +
                               atInstant(instant(k)) + " is " + shown(each) + ", expected a finite number");
   return given;
@@ -141,7 +139,7 @@ EffortRows effortRows(const py::object& torques, const py::object& t, py::ssize_
     throw py::type_error(torques.is_none() ? "t is given without torques, expected both"
                                            : "torques are given without t, expected both: their instants, s");
   EffortRows out{columnOf(t, "t"), rowsOf(torques, width, "torques")};
-  out.count = static_cast<std::size_t>(out.t.shape(0));
+  out.count = out.t.shape(0);
   if (out.rows.shape(0) != out.t.shape(0))
     throw py::value_error("torques: " + std::to_string(out.rows.shape(0)) + " rows, expected one for each of the " +
                           std::to_string(out.count) + " instants t");

@@ -39,8 +39,7 @@ auto columns(Rows MechanismMotion::*which) {
     const Rows& rows = motion.*which;
     py::dict out;
     for (Eigen::Index k = 0; k < rows.cols(); ++k)
-      out[py::str(motion.names[static_cast<std::size_t>(k)])] =
-          view(self, rows.data() + k, {rows.rows()}, {rows.cols() * size});
+      out[py::str(motion.names[k])] = view(self, rows.data() + k, {rows.rows()}, {rows.cols() * size});
     return out;
   };
 }
@@ -66,8 +65,7 @@ MechanismMotion row(const MechanismMotion& motion, py::ssize_t k) {
 
 MechanismMotion slice(const MechanismMotion& motion, const py::slice& which) {
   std::size_t start = 0, stop = 0, step = 0, count = 0;
-  if (!which.compute(static_cast<std::size_t>(motion.t.size()), &start, &stop, &step, &count))
-    throw py::error_already_set();
+  if (!which.compute(motion.t.size(), &start, &stop, &step, &count)) throw py::error_already_set();
   std::vector<Eigen::Index> rows;
   for (std::size_t k = 0; k < count; ++k, start += step) rows.push_back(static_cast<Eigen::Index>(start));
   return chosen(motion, rows);

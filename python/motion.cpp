@@ -98,11 +98,11 @@ void fill(std::vector<Motion<double>>& rows, const py::object& values, Vector3d 
   forRows(rows.size(), [&](std::size_t k) { rows[k].*which = Eigen::Map<const Vector3d>(given.data() + 3 * k); });
 }
 
-Motions made(const py::object& t, const py::object& p, const py::object& q, const py::object& v, const py::object& w,
-             const py::object& a, const py::object& alpha) {
+Motions motionsFrom(const py::object& t, const py::object& p, const py::object& q, const py::object& v,
+                    const py::object& w, const py::object& a, const py::object& alpha) {
   const Array instants = columnOf(t, "t"), orientations = rowsOf(q, 4, "q");
   Motions out;
-  out.rows.resize(static_cast<std::size_t>(instants.shape(0)));
+  out.rows.resize(instants.shape(0));
   if (orientations.shape(0) != instants.shape(0))
     throw py::value_error("q: shape " + shapeOf(orientations) + ", expected as many rows as t has");
   forRows(out.rows.size(), [&](std::size_t k) {
@@ -120,7 +120,7 @@ Motions made(const py::object& t, const py::object& p, const py::object& q, cons
 Motions row(const Motions& motion, py::ssize_t k) {
   const auto count = static_cast<py::ssize_t>(motion.rows.size());
   if (k < -count || k >= count) throw py::index_error("no such row of the motion");
-  return {{motion.rows[static_cast<std::size_t>(k < 0 ? k + count : k)]}};
+  return {{motion.rows[k < 0 ? k + count : k]}};
 }
 
 Motions slice(const Motions& motion, const py::slice& which) {
@@ -177,7 +177,7 @@ void addMotion(py::module_& module) {
   py::class_<Motions> motion(module, "Motion", words::motion);
   addCopies(motion);
   motion.def(pickled<Motions>())
-      .def(py::init(&made), py::arg("t"), py::arg("p"), py::arg("q"), py::arg("v") = py::none(),
+      .def(py::init(&motionsFrom), py::arg("t"), py::arg("p"), py::arg("q"), py::arg("v") = py::none(),
            py::arg("w") = py::none(), py::arg("a") = py::none(), py::arg("alpha") = py::none())
       .def_property_readonly("t", member(&M::t, {}, {}), "Instants, s: (N,).")
       .def_property_readonly("p", member(&M::p, {3}, {size}), "Position of P in B, m: (N, 3).")

@@ -35,7 +35,7 @@ template <class Rows, class F>
 pybind11::array_t<double> table(const Rows& rows, pybind11::ssize_t width, F&& at) {
   pybind11::array_t<double> out({static_cast<pybind11::ssize_t>(rows.size()), width});
   double* to = out.mutable_data();
-  forRows(rows.size(), [&](std::size_t k) { at(rows[k], to + static_cast<std::size_t>(width) * k); });
+  forRows(rows.size(), [&](std::size_t k) { at(rows[k], to + width * k); });
   return out;
 }
 

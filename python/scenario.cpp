@@ -32,7 +32,7 @@ Motions motionAt(const ScenarioWithSolver& self, const py::object& t) {
   const double duration = trajectory.duration();
   refuseOutside(instants, duration);
   const double* data = instants.data();
-  const auto count = static_cast<std::size_t>(instants.shape(0));
+  const std::size_t count = instants.shape(0);
   Motions out;
   const Unlocked unlocked;
   out.rows.reserve(count);

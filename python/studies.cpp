@@ -122,8 +122,8 @@ py::dict columnsOf(const BlockTable& blocks, int jobs) {
   const double* first = reinterpret_cast<const double*>(bytes.data() + header["offset"].cast<std::size_t>());
   py::dict out;
   for (py::ssize_t k = 0; k < width; ++k)
-    out[names[static_cast<std::size_t>(k)]] = py::array_t<double>(
-        {static_cast<py::ssize_t>(blocks.rows)}, {width * static_cast<py::ssize_t>(sizeof(double))}, first + k);
+    out[names[k]] = py::array_t<double>({static_cast<py::ssize_t>(blocks.rows)},
+                                        {width * static_cast<py::ssize_t>(sizeof(double))}, first + k);
   return out;
 }
 

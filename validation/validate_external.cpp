@@ -142,7 +142,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   if (replay.enough_rows > 0) result.needed = NeededRows{replay.enough_rows, file.rows()};
   if (result.verdict == Verdict::fail && !onlyOddEngineFails(result)) {
     if (partLikelyCause() != nullptr) addCause(scenario, natural, file, evidence, options.solver, result);
-    result.size = failureSize(here, evidence.samples, scenario, natural, result);
+    result.size = failureSize(in_natural, evidence.samples, scenario, natural, result);
   }
   addEffortWords(result);
   return result;

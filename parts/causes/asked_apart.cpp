@@ -90,7 +90,7 @@ Vector6d grainOf(const Subject& subject, const Poses& poses) {
       near.p += j * step * someVector(near.p.norm(), k);
       near.Q = (Eigen::AngleAxisd(j * step, someVector(1, k).normalized()) * near.Q).eval();
       near.omega *= 1 + j * step;
-      answers[static_cast<std::size_t>(j)] = subject.torques(near);
+      answers[j] = subject.torques(near);
     }
     for (std::size_t j = 2; j < steps; ++j)
       grain = grain.cwiseMax((answers[j] - 2 * answers[j - 1] + answers[j - 2]).cwiseAbs());
@@ -157,10 +157,10 @@ AskedApart askedApart(const Subject& subject, const Scenario& scenario, const st
   ConditioningProbe probe(*scenario.manipulator, scenario.load);
   for (std::size_t k = 0; k < found.size(); ++k)
     for (int question = rest; question < again; ++question) {
-      if (!found[k][static_cast<std::size_t>(question)].allFinite()) return {{}, {}, {}, {}, out.terms};
+      if (!found[k][question].allFinite()) return {{}, {}, {}, {}, out.terms};
       out.motions.push_back(asked(poses.at[k], static_cast<Question>(question), poses.v[k], poses.w[k]));
-      out.found.push_back(found[k][static_cast<std::size_t>(question)]);
-      out.expected.push_back(expected[k][static_cast<std::size_t>(question)]);
+      out.found.push_back(found[k][question]);
+      out.expected.push_back(expected[k][question]);
       out.rounding.push_back(probe.at(out.motions.back()).torqueRounding());
     }
   return out;

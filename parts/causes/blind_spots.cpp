@@ -162,9 +162,9 @@ void BlindSpots::addOfEfforts(const std::function<std::string(int)>& motor) {
   for (int m = 0; m < motors; ++m)
     for (int other = m + 1; other < motors; ++other) {
       NamedCause named{CauseKind::order};
-      named.legs.resize(static_cast<std::size_t>(motors));
+      named.legs.resize(motors);
       std::iota(named.legs.begin(), named.legs.end(), 1);
-      std::swap(named.legs[static_cast<std::size_t>(m)], named.legs[static_cast<std::size_t>(other)]);
+      std::swap(named.legs[m], named.legs[other]);
       tryOut(fmt::format("the efforts of {} and {} exchanged", motor(m), motor(other)), named, [&](std::size_t k) {
         Eigen::VectorXd out = right_[k];
         std::swap(out(m), out(other));

@@ -78,7 +78,7 @@ struct Table {
   }
 
   void put(Motion<double>& motion) const {
-    const auto k = static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), motion.t) - t.begin());
+    const std::size_t k = std::lower_bound(t.begin(), t.end(), motion.t) - t.begin();
     motion.p_dot = v[k], motion.omega = w[k];
     motion.p_ddot = a[k], motion.omega_dot = alpha[k];
   }

@@ -133,7 +133,7 @@ void nameUnit(const MotorNames& motors, const Vector6d& c, Hypothesis& out) {
     const double factor = 1 + c(first);
     bool alike = true;
     for (int i = 0; i < motor_count; ++i) {
-      const double right = motors.slides[static_cast<std::size_t>(i)] == forces ? factor : 1;
+      const double right = motors.slides[i] == forces ? factor : 1;
       alike = alike && std::abs(1 + c(i) - right) <= little * std::abs(right);
     }
     if (const std::string unit = unitOf(factor, of); alike && !unit.empty()) {
@@ -168,9 +168,9 @@ std::optional<Hypothesis> gains(const TorqueResidual& data) {
 MotorNames motorNames(const Manipulator& machine) {
   MotorNames out;
   for (int k = 0; k < motor_count; ++k) {
-    const Motor& motor = machine.motors()[static_cast<std::size_t>(k)];
+    const Motor& motor = machine.motors()[k];
     out.one_a_leg = out.one_a_leg && motor.leg == k;
-    out.slides[static_cast<std::size_t>(k)] = motor.slides();
+    out.slides[k] = motor.slides();
   }
   return out;
 }

@@ -15,14 +15,14 @@ namespace ursula {
 /// Names of motors in texts.
 struct MotorNames {
   bool one_a_leg = true;  ///< whether a motor can have the name of its leg
-  std::array<bool, motor_count> slides = {};
+  PerMotor<bool> slides = {};
 
   const char* kind() const { return one_a_leg ? "leg" : "motor"; }
   std::string operator()(int k) const { return std::string(kind()) + ' ' + std::to_string(k + 1); }
   bool allSlide() const {
     return std::all_of(slides.begin(), slides.end(), [](bool one) { return one; });
   }
-  const char* unit(int k) const { return slides[static_cast<std::size_t>(k)] ? "N" : "N m"; }
+  const char* unit(int k) const { return slides[k] ? "N" : "N m"; }
 };
 MotorNames motorNames(const Manipulator& machine);
 

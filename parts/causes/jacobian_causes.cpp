@@ -20,8 +20,8 @@ using Arm = std::function<Vector3d(const OpenLeg&)>;
 Matrix6d jacobianOf(const MachineTerms& machine, const Arm& arm) {
   Matrix6d out = jacobian(machine);
   for (int m = 0; m < motor_count; ++m) {
-    const int leg = machine.motors[static_cast<std::size_t>(m)].leg;
-    const Vector3d r = arm(machine.legs[static_cast<std::size_t>(leg)]);
+    const int leg = machine.motors[m].leg;
+    const Vector3d r = arm(machine.legs[leg]);
     out.row(m).head<3>() = r.cross(Vector3d(out.row(m).tail<3>())).transpose();
   }
   return out;

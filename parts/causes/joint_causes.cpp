@@ -22,7 +22,7 @@ Vector6d withSpeeds(const MachineTerms& machine, bool viscous, bool coulomb) {
     const CoulombFriction& dry = leg.numbers.coulomb;
     Vector3d more = Vector3d::Zero();
     for (int j = 0; j < 3; ++j) {
-      const Coordinate coordinate = rowOf(leg.numbers.kind).coordinates[static_cast<std::size_t>(j)];
+      const Coordinate coordinate = rowOf(leg.numbers.kind).coordinates[j];
       const double back = std::min(rates(j), 0.0);
       if (viscous) more(j) -= 2 * leg.numbers.friction.on(coordinate) * back;
       if (coulomb) more(j) -= 2 * dry.on(coordinate) * std::tanh(back / dry.speedOf(coordinate));
@@ -52,8 +52,8 @@ void addRotorAccelerations(TriedCauses& out) {
                      [of_platform = of_platform, times = times](const MachineTerms& machine) {
                        Vector6d change;
                        for (int m = 0; m < motor_count; ++m) {
-                         const Motor& motor = machine.motors[static_cast<std::size_t>(m)];
-                         const OpenLeg& leg = machine.legs[static_cast<std::size_t>(motor.leg)];
+                         const Motor& motor = machine.motors[m];
+                         const OpenLeg& leg = machine.legs[motor.leg];
                          const Vector3d off = of_platform ? Vector3d(leg.bias - leg.platform_bias) : leg.bias;
                          const double rotor = leg.numbers.rotor_inertia.on(motor.coordinate);
                          change(m) = times * rotor * leg.J.lu().solve(off)(motor.joint);
@@ -72,8 +72,8 @@ Vector6d throughLegJacobians(const MachineTerms& machine, Matrix3d (*inverse)(co
   }
   Matrix6d forces;
   for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = machine.motors[static_cast<std::size_t>(m)];
-    forces.col(m) = of_legs[static_cast<std::size_t>(motor.leg)].col(motor.joint);
+    const Motor& motor = machine.motors[m];
+    forces.col(m) = of_legs[motor.leg].col(motor.joint);
   }
   return forces.lu().solve(at_P) - machine.T_P.transpose() * machine.forceAtP();
 }

@@ -48,7 +48,7 @@ Coordinates leastSquares(const MachineTerms& machine, const Vector3d& r) {
   f << openEfforts(machine), machine.platform_wrench;
   f.segment<3>(3 * legs) -= r.cross(Vector3d(machine.platform_wrench.tail<3>()));
   for (Eigen::Index i = 0; i < legs; ++i) {
-    const OpenLeg& leg = machine.legs[static_cast<std::size_t>(i)];
+    const OpenLeg& leg = machine.legs[i];
     G.block<3, 3>(3 * i, 3 * i) = leg.J;
     G.block<3, 6>(3 * i, 3 * legs) = -leg.P;
     for (int k = 0; k < 3; ++k)  // the platform's point is r nearer to B
@@ -87,7 +87,7 @@ void addClosure(const char* text, const char* term, Coordinates (*efforts)(const
     const Coordinates all = efforts(machine);
     Vector6d found;
     for (int m = 0; m < motor_count; ++m) {
-      const Motor& motor = machine.motors[static_cast<std::size_t>(m)];
+      const Motor& motor = machine.motors[m];
       found(m) = all(3 * motor.leg + motor.joint);
     }
     return Vector6d(found - machine.T_P.transpose() * machine.forceAtP());

@@ -118,8 +118,7 @@ void addExchanged(TriedCauses& out) {
 void addOfOneLeg(TriedCauses& out) {
   const auto add = [&out](int leg, const std::string& text, NamedCause named, const std::function<void(Leg&)>& change) {
     named.leg = leg;
-    out.addMachine({text, named},
-                   [leg, change](Machine& machine) { change(machine.legs[static_cast<std::size_t>(leg - 1)]); });
+    out.addMachine({text, named}, [leg, change](Machine& machine) { change(machine.legs[leg - 1]); });
   };
   for (int leg = 1; leg <= out.machine.legCount(); ++leg)
     for (const auto& [name, link] : {std::pair("proximal", &Leg::proximal), std::pair("distal", &Leg::distal)})
@@ -145,7 +144,7 @@ void addHeld(TriedCauses& out) {
 void addKnees(TriedCauses& out) {
   std::vector<std::size_t> bent;
   for (int i = 0; i < out.machine.legCount(); ++i)
-    if (rowOf(out.machine.leg(i).kind).knee != nullptr) bent.push_back(static_cast<std::size_t>(i));
+    if (rowOf(out.machine.leg(i).kind).knee != nullptr) bent.push_back(i);
   for (int which = 1; which < 1 << bent.size(); ++which) {
     std::vector<std::size_t> legs;
     std::string names;

@@ -73,9 +73,7 @@ std::vector<BlindSpot> blindSpotsOf(const MechanismScenario& scenario) {
     add(data, tried);
   for (const Tried& each : tried) tryOne(each, data, out);
   addAbsent(*scenario.mechanism, out);
-  const auto name = [&](int motor) {
-    return "'" + scenario.mechanism->motor(static_cast<std::size_t>(motor)).name + "'";
-  };
+  const auto name = [&](int motor) { return "'" + scenario.mechanism->motor(motor).name + "'"; };
   out.addOfEfforts(name);
   return out.list(0);
 }

@@ -223,7 +223,7 @@ std::string deviationIn(const EffortResidual& data) {
     }
     if (largest > 0)
       out += fmt::format("{}motor {} by up to {:.4g} {} at t = {:.6g} s", out.empty() ? "" : "; ", k + 1, largest,
-                         data.mechanism->motor(static_cast<std::size_t>(k)).slides() ? "N" : "N m", at_s);
+                         data.mechanism->motor(k).slides() ? "N" : "N m", at_s);
   }
   return out;
 }

@@ -54,8 +54,7 @@ class OpenTree {
   MatrixXd inertia(const Instant& at) const {
     const auto n = static_cast<Eigen::Index>(at.coordinates.size());
     MatrixXd out = MatrixXd::Zero(n, n);
-    for (Eigen::Index c = 0; c < n; ++c)
-      out(c, c) = mechanism_.joints()[at.coordinates[static_cast<std::size_t>(c)].joint].rotor_inertia;
+    for (Eigen::Index c = 0; c < n; ++c) out(c, c) = mechanism_.joints()[at.coordinates[c].joint].rotor_inertia;
     for (std::size_t b = 0; b < mechanism_.bodies().size(); ++b) {
       const MatrixXd J = tree_.jacobian(at, b);
       const Matrix3d R = at.work.bodies[b].displacement.linear();

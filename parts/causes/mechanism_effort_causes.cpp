@@ -39,8 +39,8 @@ struct MotorPairs {
   explicit MotorPairs(const EffortResidual& data) : sign(data.motors, data.motors), cost(data.motors, data.motors) {
     for (Eigen::Index i = 0; i < data.motors; ++i)
       for (Eigen::Index j = 0; j < data.motors; ++j) {
-        const VectorXd found = ofMotor(data, data.found, static_cast<std::size_t>(i));
-        const VectorXd right = ofMotor(data, data.noc, static_cast<std::size_t>(j));
+        const VectorXd found = ofMotor(data, data.found, i);
+        const VectorXd right = ofMotor(data, data.noc, j);
         const double plus = (found - right).squaredNorm(), minus = (found + right).squaredNorm();
         sign(i, j) = plus <= minus ? 1 : -1;
         cost(i, j) = std::min(plus, minus);
@@ -49,14 +49,14 @@ struct MotorPairs {
 
   /// The order of least cost; of many motors each takes the nearest.
   Order best() const {
-    Order from(static_cast<std::size_t>(cost.rows())), out;
+    Order from(cost.rows()), out;
     std::iota(from.begin(), from.end(), std::size_t{0});
     constexpr Eigen::Index most = 7;
     if (cost.rows() > most) {
       for (Eigen::Index i = 0; i < cost.rows(); ++i) {
         Eigen::Index nearest = 0;
         cost.row(i).minCoeff(&nearest);
-        out.push_back(static_cast<std::size_t>(nearest));
+        out.push_back(nearest);
       }
       return std::is_permutation(out.begin(), out.end(), from.begin()) ? out : from;
     }
@@ -129,7 +129,7 @@ void addEachMotor(const EffortResidual& data, const std::vector<int>& off, std::
     if (!is_offset && static_cast<Eigen::Index>(off.size()) == data.motors && data.motors == 1) continue;
     MatrixXd columns = MatrixXd::Zero(data.noc.size(), static_cast<Eigen::Index>(off.size()));
     for (std::size_t i = 0; i < off.size(); ++i) {
-      const auto k = static_cast<std::size_t>(off[i]);
+      const std::size_t k = off[i];
       VectorXd column = VectorXd::Zero(data.noc.size());
       const VectorXd own = ofMotor(data, data.noc, k);
       setMotor(data, k, is_offset ? VectorXd(VectorXd::Ones(own.size())) : own, column);
@@ -140,8 +140,7 @@ void addEachMotor(const EffortResidual& data, const std::vector<int>& off, std::
                 VectorXd::Ones(columns.cols())};
     nameThem(data, off, tried.named);
     const double expected = is_offset ? 0 : 1;
-    if (is_offset && off.size() == 1)
-      tried.named.unit = data.mechanism->motor(static_cast<std::size_t>(off[0])).slides() ? "N" : "N m";
+    if (is_offset && off.size() == 1) tried.named.unit = data.mechanism->motor(off[0]).slides() ? "N" : "N m";
     tried.finish = [expected](const VectorXd& x, const VectorXd& uncertainty, NamedCause& named) {
       if (x.size() > 1) return true;
       named.expected = expected;
@@ -161,7 +160,7 @@ void addEffortCauses(const EffortResidual& data, std::vector<Tried>& out) {
   out.push_back(factorOf(data, {CauseKind::scale, "", "all"}, data.noc));
   std::vector<int> off;
   for (Eigen::Index k = 0; k < data.motors; ++k) {
-    const auto motor = static_cast<std::size_t>(k);
+    const std::size_t motor = k;
     const VectorXd left = ofMotor(data, data.residual(), motor), limit = ofMotor(data, data.limit, motor);
     if ((left.array().abs() > limit.array()).any()) off.push_back(static_cast<int>(k));
   }

@@ -68,9 +68,9 @@ class JointSides {
     const Eigen::Vector2d acceleration = of * (turningRate() - rest);
     std::vector<Coordinate> out = {about(a), about(b)};
     for (int k = 0; k < 2; ++k) {
-      out[static_cast<std::size_t>(k)].rate = rate(k);
-      out[static_cast<std::size_t>(k)].acceleration = acceleration(k);
-      out[static_cast<std::size_t>(k)].row = of.row(k) * turns();
+      out[k].rate = rate(k);
+      out[k].acceleration = acceleration(k);
+      out[k].row = of.row(k) * turns();
     }
     return out;
   }

@@ -80,7 +80,7 @@ void addTurnedPoints(const Points& points, TriedCauses& out) {
 
 /// Entry i is the leg whose points leg i gets: numbered from another leg, the other way round, or two exchanged.
 std::set<std::vector<int>> numberings(int legs) {
-  std::vector<int> right(static_cast<std::size_t>(legs));
+  std::vector<int> right(legs);
   std::iota(right.begin(), right.end(), 0);
   std::set<std::vector<int>> out;
   for (int k = 0; k < legs; ++k) {
@@ -90,7 +90,7 @@ std::set<std::vector<int>> numberings(int legs) {
     out.insert({turned.rbegin(), turned.rend()});
     for (int i = 0; i < k; ++i) {
       std::vector<int> exchanged = right;
-      std::swap(exchanged[static_cast<std::size_t>(i)], exchanged[static_cast<std::size_t>(k)]);
+      std::swap(exchanged[i], exchanged[k]);
       out.insert(exchanged);
     }
   }
@@ -109,8 +109,7 @@ void addNumbered(const Points& points, TriedCauses& out) {
                    [from, &points](Machine& changed) {
                      const std::vector<Leg> legs_before = changed.legs;
                      for (std::size_t i = 0; i < from.size(); ++i)
-                       for (const auto each : points.of)
-                         changed.legs[i].*each = legs_before[static_cast<std::size_t>(from[i])].*each;
+                       for (const auto each : points.of) changed.legs[i].*each = legs_before[from[i]].*each;
                    });
   }
 }

@@ -64,7 +64,7 @@ VectorXd OutputMistake::of(const VectorXd& efforts, double x) const {
   for (Index at = 0; at < efforts.size(); at += n)
     for (Index k = 0; k < n; ++k) {
       double& one = out(at + k);
-      if (!from.empty()) one = efforts(at + from[static_cast<std::size_t>(k)]);
+      if (!from.empty()) one = efforts(at + from[k]);
       if (factor.size() > 0) one *= factor(k);
       if (gain.size() > 0) one *= 1 + x * gain(k);
       if (offset.size() > 0) one += x * offset(k);
@@ -76,8 +76,7 @@ VectorXd OutputMistake::undone(const VectorXd& efforts) const {
   VectorXd out = efforts;
   const Index n = motorsOf(*this);
   for (Index at = 0; at < efforts.size(); at += n)
-    for (Index k = 0; k < n; ++k)
-      out(at + (from.empty() ? k : from[static_cast<std::size_t>(k)])) = efforts(at + k) / factor(k);
+    for (Index k = 0; k < n; ++k) out(at + (from.empty() ? k : from[k])) = efforts(at + k) / factor(k);
   return out;
 }
 
@@ -106,7 +105,7 @@ void Pursuit::addOutputs() {
   constexpr double g = 9.80665, degrees = 57.29577951308232, pound_foot = 1.3558179483314004;
   for (const double unit : {1e3, 1e6, 1e2, 1e1, g, degrees, pound_foot, 4.4482216152605, 8.850745791327184})
     for (const double factor : {unit, 1 / unit}) outputs_.push_back({{}, factor * ones});
-  std::vector<Index> own(static_cast<std::size_t>(n));
+  std::vector<Index> own(n);
   std::iota(own.begin(), own.end(), Index{0});
   std::vector<Index> from = own;
   while (n <= most_permuted && std::next_permutation(from.begin(), from.end())) outputs_.push_back({from, ones});
@@ -224,7 +223,7 @@ void Pursuit::improve(Mistakes& mistakes, int steps) const {
     better = false;
     for (int halvings = 0; halvings < 4 && !better; ++halvings, dx /= 2) {
       Mistakes there = mistakes;
-      for (Index i = 0; i < dx.size(); ++i) there.x(numbers[static_cast<std::size_t>(i)]) += dx(i);
+      for (Index i = 0; i < dx.size(); ++i) there.x(numbers[i]) += dx(i);
       const VectorXd then = left(there);
       better = then.norm() < remaining.norm();
       if (better) mistakes.x = there.x, remaining = then;
@@ -258,9 +257,9 @@ void Pursuit::extend(const Mistakes& start, std::vector<Mistakes>& out) const {
   if (!base) return;
   MatrixXd slopes = MatrixXd::Zero(right_.size(), std::max<Index>(1, inner.x.size()));
   for (Index k = 0; k < inner.x.size(); ++k) {
-    if (!hasNumber(inner.which[static_cast<std::size_t>(k)])) continue;
+    if (!hasNumber(inner.which[k])) continue;
     Mistakes near = inner;
-    near.x(k) += step(inner.which[static_cast<std::size_t>(k)]);
+    near.x(k) += step(inner.which[k]);
     if (const std::optional<VectorXd> there = efforts(near, together_)) slopes.col(k) = (*there - *base).normalized();
   }
   const Eigen::ColPivHouseholderQR<MatrixXd> factors(slopes);

@@ -11,7 +11,7 @@ namespace ursula {
 namespace {
 
 /// Entry i is the leg, 0-based, whose torques column i contains.
-using Order = std::array<std::size_t, motor_count>;
+using Order = PerMotor<std::size_t>;
 constexpr std::size_t columns = motor_count;
 
 /// ‖τᵢ ∓ τⱼ‖² for leg i of the found torques and leg j of the exact ones, with the better sign.

@@ -23,8 +23,8 @@ Vector6d ofRods(const MachineTerms& machine, const LegChange& change) {
 Vector6d ofSliding(const MachineTerms& machine, const std::function<double(const OpenLeg&, int motor)>& effort) {
   Vector6d out = Vector6d::Zero();
   for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = machine.motors[static_cast<std::size_t>(m)];
-    if (motor.slides()) out(m) = effort(machine.legs[static_cast<std::size_t>(motor.leg)], m);
+    const Motor& motor = machine.motors[m];
+    if (motor.slides()) out(m) = effort(machine.legs[motor.leg], m);
   }
   return out;
 }

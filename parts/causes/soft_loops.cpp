@@ -18,7 +18,7 @@ struct SoftLoops {
 /// A closure answers rounding of the velocity as well, at the rate of its time constant: 20 ms by default.
 constexpr double closing_rate = 100;  // 1/s
 
-const Motor& motorAt(const Motors& motors, int m) { return motors[static_cast<std::size_t>(m)]; }
+const Motor& motorAt(const Motors& motors, int m) { return motors[m]; }
 
 /// A closure of J and P that leaves out J̇ u takes it for an error of the acceleration, and answers with a force.
 SoftLoops softLoopsAt(const MachineTerms& machine, const Motion<double>& motion) {
@@ -28,7 +28,7 @@ SoftLoops softLoopsAt(const MachineTerms& machine, const Motion<double>& motion)
   SoftLoops out;
   for (int m = 0; m < motor_count; ++m) {
     const Motor& motor = motorAt(machine.motors, m);
-    const OpenLeg& leg = machine.legs[static_cast<std::size_t>(motor.leg)];
+    const OpenLeg& leg = machine.legs[motor.leg];
     const double condition = leg.J.norm() * leg.J.inverse().norm();  // rates and accelerations are solved by J
     const double velocity = (leg.P * twist).norm(), acceleration = (leg.P * rate + leg.platform_bias).norm();
     const Vector3d per_kilogram = -leg.J.transpose() * (leg.bias - leg.platform_bias);
@@ -43,11 +43,11 @@ SoftLoops softLoopsAt(const MachineTerms& machine, const Motion<double>& motion)
 /// open.
 std::vector<double> massesOf(const Manipulator& machine, const std::vector<SoftLoops>& rows,
                              const std::vector<Vector6d>& left) {
-  const auto legs = static_cast<std::size_t>(machine.legCount());
+  const std::size_t legs = machine.legCount();
   std::vector<double> over(legs), under(legs);
   for (std::size_t k = 0; k < rows.size(); ++k)
     for (int m = 0; m < motor_count; ++m) {
-      const auto leg = static_cast<std::size_t>(motorAt(machine.motors(), m).leg);
+      const std::size_t leg = motorAt(machine.motors(), m).leg;
       const double change = rows[k].per_kilogram(m);
       over[leg] += change * left[k](m);
       under[leg] += change * change;
@@ -76,7 +76,7 @@ std::optional<Hypothesis> softLoops(const Scenario& scenario, const TorqueResidu
   if (masses.empty()) return std::nullopt;
   for (std::size_t k = 0; k < left.size(); ++k)
     for (int m = 0; m < motor_count; ++m) {
-      const double mass = masses[static_cast<std::size_t>(motorAt(machine.motors(), m).leg)];
+      const double mass = masses[motorAt(machine.motors(), m).leg];
       left[k](m) -= mass * rows[k].per_kilogram(m);
       grown = std::max(grown, mass * rows[k].rounded(m) / right);
     }

@@ -73,7 +73,7 @@ Machine withoutMotors(const Manipulator& machine, bool& had) {
   Machine out = machine.parameters();
   had = false;
   for (const Motor& motor : machine.motors()) {
-    Leg& leg = out.legs[static_cast<std::size_t>(motor.leg)];
+    Leg& leg = out.legs[motor.leg];
     for (double* number : {&leg.friction.on(motor.coordinate), &leg.coulomb.on(motor.coordinate),
                            &leg.rotor_inertia.on(motor.coordinate)})
       had = std::exchange(*number, 0) > 0 || had;

@@ -74,8 +74,7 @@ class VectorFit {
       move(entries_, change, machine);
       const Subject noc = nocSubject(Manipulator(machine), scenario_.load);
       for (Eigen::Index k = 0; k < rows; ++k) {
-        const auto i = static_cast<std::size_t>(k);
-        out.segment<motor_count>(motor_count * k) = data_.found(i) - noc.torques(data_.motions[i]);
+        out.segment<motor_count>(motor_count * k) = data_.found(k) - noc.torques(data_.motions[k]);
       }
     } catch (const PoseError&) {
     } catch (const std::invalid_argument&) {

@@ -134,7 +134,7 @@ std::vector<Gap> gapsOf(const std::vector<double>& reference, const std::vector<
     const auto last = std::lower_bound(first, reference.end(), test[k + 1] - rounding);
     Gap gap;
     if (first < last) {
-      gap.passed = static_cast<std::size_t>(last - first);
+      gap.passed = last - first;
       const auto from = first == reference.begin() ? first : first - 1, to = last == reference.end() ? last - 1 : last;
       gap.is_wide = from < to && test[k + 1] - test[k] > 1.5 * (*to - *from) / static_cast<double>(to - from);
     }
@@ -151,7 +151,7 @@ std::size_t skippedOf(const std::vector<double>& reference, const std::vector<do
   std::array<std::size_t, few> counts{};
   for (const Gap& gap : gaps)
     if (gap.passed < few) ++counts[gap.passed];
-  const auto usual = static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+  const std::size_t usual = std::max_element(counts.begin(), counts.end()) - counts.begin();
   const bool is_even = 4 * counts[usual] >= 3 * gaps.size();
   std::size_t skipped = 0;
   for (const Gap& gap : gaps)

@@ -12,7 +12,7 @@ auto columnsOf(Series& series, const std::string& prefix) {
   for (const char part : {'w', 'x', 'y', 'z'}) {
     const auto found = std::find(series.names.begin(), series.names.end(), prefix + part);
     if (found == series.names.end()) return decltype(out)();
-    out.push_back(&series.columns[static_cast<std::size_t>(found - series.names.begin())]);
+    out.push_back(&series.columns[found - series.names.begin()]);
   }
   return out;
 }

@@ -60,11 +60,10 @@ void seed(int first, Vector3<Dual>& v) {
 /// A machine with its axes as given, without normalisation.
 struct UnnormalisedMachine {
   MachineParameters<Dual> parameters;
-  std::array<Vector3<Dual>, leg_count> axis;
+  PerLeg<Vector3<Dual>> axis;
 
   explicit UnnormalisedMachine(const Manipulator& manipulator) : parameters(manipulator) {
-    for (int i = 0; i < manipulator.legCount(); ++i)
-      axis[static_cast<std::size_t>(i)] = manipulator.leg(i).base_axis.cast<Dual>();
+    for (int i = 0; i < manipulator.legCount(); ++i) axis[i] = manipulator.leg(i).base_axis.cast<Dual>();
   }
 };
 
@@ -198,12 +197,12 @@ struct EffortDerivatives::Impl {
     for (int first = 0; first < count; first += dual_width) {
       const int here = std::min(dual_width, count - first);
       UnnormalisedMachine seeded = at;
-      for (int k = 0; k < here; ++k) seed(seeded, numbers[static_cast<std::size_t>(first + k)], k);
+      for (int k = 0; k < here; ++k) seed(seeded, numbers[first + k], k);
       const Vector6<Dual> found = efforts(modelOf(seeded), m, on_platform);
       for (int k = 0; k < here; ++k)
         for (int row = 0; row < 6; ++row) out(row, first + k) = found(row).derivatives()(k);
     }
-    requireFinite(out.data(), static_cast<std::size_t>(out.size()), "derivative", motion.t);
+    requireFinite(out.data(), out.size(), "derivative", motion.t);
     return out;
   }
 
@@ -211,10 +210,10 @@ struct EffortDerivatives::Impl {
   /// because they have derivatives.
   static kernel::MachineModel<Dual> modelOf(UnnormalisedMachine& seeded) {
     MachineParameters<Dual>& m = seeded.parameters;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(m.legs_in_all); ++i)
+    for (int i = 0; i < m.legs_in_all; ++i)
       setFixedFrame<Dual>(seeded.axis[i], m.legs[i].x_hat, m.legs[i].u, m.legs[i].z_hat);
     kernel::MachineModel<Dual> model = kernel::machineModel(m);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(m.legs_in_all); ++i) {
+    for (int i = 0; i < m.legs_in_all; ++i) {
       model.legs[i].has_friction = model.legs[i].has_coulomb = true;
       model.legs[i].principal = false;
     }
@@ -257,7 +256,7 @@ EffortsByState EffortDerivatives::byState(const Motion<double>& motion, const Ve
     out.derivatives.row(row) = found(row).derivatives().transpose();
   }
   finite(out.efforts, "effort", motion.t);
-  requireFinite(out.derivatives.data(), static_cast<std::size_t>(out.derivatives.size()), "derivative", motion.t);
+  requireFinite(out.derivatives.data(), out.derivatives.size(), "derivative", motion.t);
   return out;
 }
 

@@ -13,7 +13,7 @@ namespace ursula {
 template <class Of>
 Vector6d forMotors(const Manipulator& manipulator, const Of& of) {
   Vector6d out;
-  for (int m = 0; m < motor_count; ++m) out(m) = of(manipulator.motors()[static_cast<std::size_t>(m)]);
+  for (int m = 0; m < motor_count; ++m) out(m) = of(manipulator.motors()[m]);
   return out;
 }
 
@@ -29,7 +29,6 @@ Vector6d leastEfforts(const OpenTree& tree, const Manipulator& manipulator);
 
 /// Returns the platform's displacement, in the coordinates of its speeds, that closes `gaps` (m, leg's point minus
 /// platform's) while the motors stand still.
-Vector6d displacement(const OpenTree& tree, const std::array<Vector3d, leg_count>& gaps,
-                      const Manipulator& manipulator);
+Vector6d displacement(const OpenTree& tree, const PerLeg<Vector3d>& gaps, const Manipulator& manipulator);
 
 }  // namespace ursula

@@ -15,7 +15,7 @@ Vector3d legCoordinates(const Leg& leg, int index, const Matrix3d& frame, const 
 Vector3d frictionOn(const Leg& leg, const Vector3d& rates) {
   Vector3d out;
   for (Eigen::Index j = 0; j < 3; ++j) {
-    const Coordinate coordinate = rowOf(leg.kind).coordinates[static_cast<std::size_t>(j)];
+    const Coordinate coordinate = rowOf(leg.kind).coordinates[j];
     out(j) = -leg.friction.on(coordinate) * rates(j) -
              leg.coulomb.on(coordinate) * std::tanh(rates(j) / leg.coulomb.speedOf(coordinate));
   }

@@ -14,16 +14,14 @@ const char* name(Recipe recipe) {
 
 double largestGap(const PlacedTree& tree, const Manipulator& manipulator) {
   double out = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(manipulator.legCount()); ++i)
-    out = larger(out, tree.gaps[i].norm());
+  for (int i = 0; i < manipulator.legCount(); ++i) out = larger(out, tree.gaps[i].norm());
   return out;
 }
 
 double sag(const PlacedTree& tree, const Manipulator& manipulator) {
   const Vector6d moved = displacement(tree, tree.gaps, manipulator);
   double out = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(manipulator.legCount()); ++i)
-    out = larger(out, (tree.legs[i].P * moved).norm());
+  for (int i = 0; i < manipulator.legCount(); ++i) out = larger(out, (tree.legs[i].P * moved).norm());
   return out;
 }
 

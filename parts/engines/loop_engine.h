@@ -18,8 +18,8 @@ namespace ursula {
 /// Trees with the gaps of their loops.
 struct PlacedTree : OpenTree {
   /// The leg's point minus the platform's, m, in the axes of J and P.
-  std::array<Vector3d, leg_count> gaps{Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(),
-                                       Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
+  PerLeg<Vector3d> gaps{Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(),
+                        Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
 };
 
 /// Returns the norm of the largest gap, m.

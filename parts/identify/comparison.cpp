@@ -51,11 +51,10 @@ ModelledLog::ModelledLog(const Scenario& scenario, const MeasuredLog& log, const
   efforts_.resize(filtered.size(), motor_count);
   driven_rates_.resize(filtered.size(), motor_count);
   for (Eigen::Index i = 0; i < filtered.size(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    Motion<double>& motion = motions_[at];
+    Motion<double>& motion = motions_[i];
     motion.t = filtered.time(i);
     loads_.push_back(log.load.cols() > 0 ? filtered.load(i) : loadAtP(scenario.load.get(), motion));
-    efforts_.row(i) = chain_.efforts(motion, loads_[at]).transpose();
+    efforts_.row(i) = chain_.efforts(motion, loads_[i]).transpose();
     driven_rates_.row(i) =
         has_poses_ ? chain_.driven(motion).second.transpose() : filtered.state(i).rate.transpose().eval();
   }
@@ -220,7 +219,7 @@ void ModelledLog::keepSteady(Comparison& out) const {
   std::vector<bool> starts(all, false);
   for (const Segment& segment : out.segments) starts[segment.first] = true;
   for (std::size_t i = 0; i < out.kept.size(); ++i) {
-    const auto row = static_cast<std::size_t>(out.kept[i]);
+    const std::size_t row = out.kept[i];
     slopes.push_back(out.slopes[row]);
     if (i == 0 || out.kept[i - 1] + 1 != out.kept[i] || starts[row])
       segments.push_back({static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)});

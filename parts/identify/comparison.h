@@ -31,7 +31,7 @@ struct Direction {
 };
 
 /// Tables of efforts, one for each motor, with an instant in each row.
-using MotorTables = std::array<Eigen::MatrixXd, motor_count>;
+using MotorTables = PerMotor<Eigen::MatrixXd>;
 
 /// Measured and modelled efforts after both low passes, and the directions that change the model.
 struct Comparison {

@@ -108,7 +108,7 @@ void FilteredLog::takeOut(const Eigen::MatrixXd& noise) {
 void FilteredLog::placeCenters(double reach) {
   const Eigen::Index rows = log_.rows(),
                      margin = first_.half + 1 + static_cast<Eigen::Index>(std::ceil(reach / log_.step));
-  std::vector<Eigen::Index> lacking(static_cast<std::size_t>(rows) + 1, 0);
+  std::vector<Eigen::Index> lacking(rows + 1, 0);
   for (std::size_t i = 0; i < log_.missing.size(); ++i) lacking[i + 1] = lacking[i] + (log_.missing[i] ? 1 : 0);
   const auto whole = [&](Eigen::Index center) { return lacking[center + margin] == lacking[center - margin]; };
   const Eigen::Index all = (rows - 2 * margin) / plan_.coarse;

@@ -75,7 +75,7 @@ struct IdentifyResult {
   Eigen::Index instants = 0;                            ///< number of judged instants
   double delay = 0, delay_uncertainty = 0;              ///< delay of efforts behind the motion, s
   double squares = 0, squares_limit = 0, threshold = 0;
-  std::array<MotorAgreement, motor_count> motors;
+  PerMotor<MotorAgreement> motors;
   std::vector<MeasuredNumber> combinations, numbers;
   std::vector<std::string> unseen;  ///< numbers without effect on this motion's efforts
   double validation_given = 0, validation_fitted = 0, validation_from_s = 0;

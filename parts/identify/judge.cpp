@@ -105,7 +105,7 @@ std::size_t largestOf(const std::vector<Score>& scores) {
   const auto best = std::max_element(scores.begin(), scores.end(), [](const Score& a, const Score& b) {
     return std::abs(a.score) < std::abs(b.score);
   });
-  return static_cast<std::size_t>(best - scores.begin());
+  return best - scores.begin();
 }
 
 /// Returns the suspect of the largest score, or the offset of a coordinate that cannot be told from it. An encoder is

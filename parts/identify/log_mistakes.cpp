@@ -27,21 +27,20 @@ void add(IdentifyResult& out, const char* kind, int motor, double value, const s
 /// Looks for another order of the motors that explains the efforts. `left` has the squared deviation of the model's
 /// efforts (rows) from each measured column.
 bool findOrder(const Matrix6d& left, IdentifyResult& out) {
-  std::array<Eigen::Index, motor_count> column{};
+  PerMotor<Eigen::Index> column{};
   std::vector<int> moved;
   double before = 0, after = 0;
   for (int k = 0; k < motor_count; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    const double least = left.row(k).minCoeff(&column[at]);
-    if (std::find(column.begin(), column.begin() + k, column[at]) != column.begin() + k) return false;
-    if (column[at] == k) continue;
+    const double least = left.row(k).minCoeff(&column[k]);
+    if (std::find(column.begin(), column.begin() + k, column[k]) != column.begin() + k) return false;
+    if (column[k] == k) continue;
     moved.push_back(k + 1);
     before += left(k, k);
     after += least;
   }
   if (moved.empty() || !(after < explains * before)) return false;
   std::vector<Eigen::Index> found;
-  for (const int motor : moved) found.push_back(column[static_cast<std::size_t>(motor - 1)] + 1);
+  for (const int motor : moved) found.push_back(column[motor - 1] + 1);
   add(out, "order", moved.front() - 1, static_cast<double>(found.front()),
       moved.size() == 2 ? fmt::format("the efforts of motors {} and {} look exchanged", moved[0], moved[1])
                         : fmt::format("the efforts of motors {} look like those in the columns of motors {}",

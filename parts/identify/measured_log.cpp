@@ -33,8 +33,8 @@ std::vector<std::pair<std::string, std::string>> pairsOf(const std::vector<std::
 }
 
 /// Returns each motor's constant, N·m/A or N/A.
-std::array<double, motor_count> constantsOf(const Columns& columns, const std::vector<double>& given) {
-  std::array<double, motor_count> out;
+PerMotor<double> constantsOf(const Columns& columns, const std::vector<double>& given) {
+  PerMotor<double> out;
   out.fill(1);
   if (columns.has_currents && given.size() != 1 && given.size() != motor_count)
     throw CsvError(fmt::format(
@@ -90,7 +90,7 @@ class LogReader {
                                  std::filesystem::exists(options.file) ? "cannot be read" : "no such file"));
     std::string head(std::size_t{1} << 16, '\0');
     stream_.read(head.data(), static_cast<std::streamsize>(head.size()));
-    head.resize(static_cast<std::size_t>(stream_.gcount()));
+    head.resize(stream_.gcount());
     if (const auto end = head.rfind('\n'); stream_ && end != std::string::npos) head.resize(end + 1);
     stream_.clear();
     stream_.seekg(0);

@@ -147,8 +147,7 @@ NoiseDraw drawNoise(const FilteredLog& filtered, const Comparison& comparison) {
     addSeries(filtered.effortLines(), comparison.t, noise.efforts(k), dice, efforts.col(k));
   const Eigen::MatrixXd passed = filtered.lowPass(out.motion)(comparison.kept, Eigen::all);
   for (Eigen::Index i = 0; i < passed.rows(); ++i)
-    out.efforts.segment<6>(6 * i) =
-        efforts.row(i).transpose() - comparison.slopes[static_cast<std::size_t>(i)] * passed.row(i).transpose();
+    out.efforts.segment<6>(6 * i) = efforts.row(i).transpose() - comparison.slopes[i] * passed.row(i).transpose();
   return out;
 }
 

@@ -56,7 +56,7 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> longRuns(const std::vector<bo
   const auto rows = static_cast<Eigen::Index>(missing.size());
   Eigen::Index longest = 0;
   for (Eigen::Index first = 0; first < rows;) {
-    const bool lacks = missing[static_cast<std::size_t>(first)];
+    const bool lacks = missing[first];
     const auto end = std::find(missing.begin() + first, missing.end(), !lacks) - missing.begin();
     if (!lacks) runs.emplace_back(first, end), longest = std::max(longest, end - first);
     first = end;

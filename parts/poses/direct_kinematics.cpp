@@ -71,8 +71,8 @@ PlatformPose makePose(const MachineParameters<double>& model, const Planes& plan
   pose.Q = direct::rotation(pose.q);
   pose.assembles = pose.front = true;
   for (int i = 0; i < leg_count; ++i) {
-    const LegModel<double>& leg = model.legs[static_cast<std::size_t>(i)];
-    LegAtPose& out = pose.legs[static_cast<std::size_t>(i)];
+    const LegModel<double>& leg = model.legs[i];
+    LegAtPose& out = pose.legs[i];
     const Vector3d AB = pose.p + pose.Q * leg.b - leg.a;
     pose.residual = widened(pose.residual, readLeg(leg, AB, planes.x(i), planes.z(i), out));
     pose.assembles = pose.assembles && out.in_reach;
@@ -126,12 +126,12 @@ PlatformPoses DirectKinematics::poses(const Vector6d& phi) const {
   PlatformPoses out;
   out.counted = roots.counted;
   for (int i = 0; i < roots.size; ++i) {
-    const direct::Root& root = roots.list[static_cast<std::size_t>(i)];
+    const direct::Root& root = roots.list[i];
     if (!root.real) continue;
     const Eigen::Vector4d q = root.q.real().normalized();
     PlacedPlatform placed{planes.p(q), q};
     polish(planes, placed);
-    PlatformPose& pose = out.list[static_cast<std::size_t>(out.size++)];
+    PlatformPose& pose = out.list[out.size++];
     pose = makePose(paper(), planes, placed);
     pose.multiplicity = root.multiplicity;
   }

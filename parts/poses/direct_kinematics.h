@@ -28,7 +28,7 @@ struct PlatformPose {
   int multiplicity = 1;                          ///< number of poses that rounding merges into this one
   /// Largest mismatch, m, in (27) over l + s and in (13); a leg out of reach has only the first component of (13).
   double residual = 0;
-  std::array<LegAtPose, leg_count> legs;
+  PerLeg<LegAtPose> legs;
   bool assembles = false;  ///< every leg is in reach, so the machine can be assembled at this pose
   bool front = false;      ///< every leg is in front: inverse kinematics returns the given angles
 };

@@ -45,7 +45,7 @@ double reduce(Matrix& A, std::array<int, rows>& pivots) {
     smallest = step == 0 ? best : std::min(smallest, best);
     largest = std::max(largest, best);
     A.row(step).swap(A.row(row));
-    pivots[static_cast<std::size_t>(step)] = column;
+    pivots[step] = column;
     A.row(step) /= A(step, column);
     for (int i = 0; i < rows; ++i)
       if (i != step) A.row(i) -= A(i, column) * A.row(step);
@@ -68,7 +68,7 @@ using QuadraticRows = Eigen::Matrix<double, 3, quadratic_count + 4, Eigen::RowMa
 QuadraticRows quadraticRows(const ThreeQuadrics& quadrics, const Eigen::Matrix4d& H) {
   QuadraticRows rows;
   for (int k = 0; k < 3; ++k) {
-    const Eigen::Matrix4d S = H.transpose() * quadrics.S[static_cast<std::size_t>(k)] * H;
+    const Eigen::Matrix4d S = H.transpose() * quadrics.S[k] * H;
     rows.row(k) << S(1, 1), 2 * S(1, 2), 2 * S(1, 3), S(2, 2), 2 * S(2, 3), S(3, 3), 2 * S(0, 1), 2 * S(0, 2),
         2 * S(0, 3), S(0, 0);
   }
@@ -81,12 +81,12 @@ void reduceSecond(QuadraticRows& rows, std::array<int, 3>& pivots, Ring& ring) {
   if (!(ring.pivot > 0)) return;
   ring.basis = others<quadratic_count>(pivots);
   ring.second.setZero();
-  for (int b = 0; b < 3; ++b) ring.second(ring.basis[static_cast<std::size_t>(b)], 4 + b) = 1;
+  for (int b = 0; b < 3; ++b) ring.second(ring.basis[b], 4 + b) = 1;
   for (int k = 0; k < 3; ++k) {
-    const int p = pivots[static_cast<std::size_t>(k)];
+    const int p = pivots[k];
     ring.second(p, 0) = -rows(k, 9);
     for (int j = 0; j < 3; ++j) ring.second(p, 1 + j) = -rows(k, 6 + j);
-    for (int b = 0; b < 3; ++b) ring.second(p, 4 + b) = -rows(k, ring.basis[static_cast<std::size_t>(b)]);
+    for (int b = 0; b < 3; ++b) ring.second(p, 4 + b) = -rows(k, ring.basis[b]);
   }
 }
 
@@ -107,8 +107,7 @@ void reduceThird(const QuadraticRows& rows, Ring& ring) {
   if (!(ring.pivot > 0)) return;
   const int c = others<cubic_count>(pivots)[0];
   ring.third.row(c) = Element::Unit(lower_count);
-  for (int i = 0; i < 9; ++i)
-    ring.third.row(pivots[static_cast<std::size_t>(i)]) << -A.row(i).tail<lower_count>(), -A(i, c);
+  for (int i = 0; i < 9; ++i) ring.third.row(pivots[i]) << -A.row(i).tail<lower_count>(), -A(i, c);
 }
 
 /// Returns xⱼ times all monomials of degree three, without xⱼ c.
@@ -117,7 +116,7 @@ Eigen::Matrix<double, cubic_count, root_count> timesThird(const Ring& ring, int 
   products.row(0) = Element::Unit(1 + j);
   for (int i = 0; i < 3; ++i) {
     products.row(1 + i) = ring.second.row(quadratic[j][i]);
-    products.row(4 + i) = ring.third.row(cubic[j][ring.basis[static_cast<std::size_t>(i)]]);
+    products.row(4 + i) = ring.third.row(cubic[j][ring.basis[i]]);
   }
   return ring.third.leftCols<lower_count>() * products;
 }
@@ -133,8 +132,7 @@ Element timesC(Ring& ring) {
     for (int k = j + 1; k < 3; ++k)
       for (int n = 0; n < quadratic_count; ++n) {
         const int m_j = cubic[j][n], m_k = cubic[k][n];  // xⱼ m_k = xₖ m_j
-        const Element difference =
-            lower[static_cast<std::size_t>(k)].row(m_j) - lower[static_cast<std::size_t>(j)].row(m_k);
+        const Element difference = lower[k].row(m_j) - lower[j].row(m_k);
         normal(j, j) += c(m_k) * c(m_k);
         normal(k, k) += c(m_j) * c(m_j);
         normal(j, k) -= c(m_k) * c(m_j);
@@ -175,7 +173,7 @@ std::array<Eigen::Matrix4d, chart_count> makeCharts() {
 
 const Eigen::Matrix4d& chart(int index) {
   static const std::array<Eigen::Matrix4d, chart_count> charts = makeCharts();
-  return charts[static_cast<std::size_t>(index)];
+  return charts[index];
 }
 
 MultiplicationMatrix multiplicationMatrix(const ThreeQuadrics& quadrics, int index) {
@@ -189,7 +187,7 @@ MultiplicationMatrix multiplicationMatrix(const ThreeQuadrics& quadrics, int ind
   out.M.row(0) = Element::Unit(1);
   for (int i = 0; i < 3; ++i) {
     out.M.row(1 + i) = ring.second.row(quadratic[0][i]);
-    out.M.row(4 + i) = ring.third.row(cubic[0][ring.basis[static_cast<std::size_t>(i)]]);
+    out.M.row(4 + i) = ring.third.row(cubic[0][ring.basis[i]]);
   }
   out.M.row(7) = timesC(ring);
   out.pivot = ring.pivot;

@@ -86,8 +86,8 @@ class Planes {
   /// Places the planes for finite φ, rad.
   Planes(const MachineParameters<double>& model, const Vector6d& phi);
 
-  const Vector3d& x(int i) const { return x_[static_cast<std::size_t>(i)]; }  ///< xᵢ, normal to Πᵢ, in B
-  const Vector3d& z(int i) const { return z_[static_cast<std::size_t>(i)]; }  ///< zᵢ, in Πᵢ across the axis
+  const Vector3d& x(int i) const { return x_[i]; }  ///< xᵢ, normal to Πᵢ, in B
+  const Vector3d& z(int i) const { return z_[i]; }  ///< zᵢ, in Πᵢ across the axis
 
   /// Returns xᵢᵀ(p + Qbᵢ − aᵢ), m.
   Vector6d mismatch(const PlacedPlatform& pose) const;
@@ -107,7 +107,7 @@ class Planes {
   Eigen::Matrix<double, leg_count, 3> normals() const;
 
   const MachineParameters<double>& model_;
-  std::array<Vector3d, leg_count> x_, z_;
+  PerLeg<Vector3d> x_, z_;
   double size_ = 0;  // largest ‖aᵢ‖, m
 };
 

@@ -62,11 +62,10 @@ Matrix3d rotation(const Eigen::Vector4d& q) { return Eigen::Quaterniond(q(0), q(
 
 Planes::Planes(const MachineParameters<double>& model, const Vector6d& phi) : model_(model) {
   for (int i = 0; i < leg_count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const LegModel<double>& leg = model.legs[k];
+    const LegModel<double>& leg = model.legs[i];
     const double cosine = std::cos(phi(i)), sine = std::sin(phi(i));
-    x_[k] = cosine * leg.x_hat + sine * leg.z_hat;  // (paper, eq. 1)
-    z_[k] = cosine * leg.z_hat - sine * leg.x_hat;
+    x_[i] = cosine * leg.x_hat + sine * leg.z_hat;  // (paper, eq. 1)
+    z_[i] = cosine * leg.z_hat - sine * leg.x_hat;
     size_ = std::max(size_, leg.a.norm());
   }
 }
@@ -75,7 +74,7 @@ Vector6d Planes::mismatch(const PlacedPlatform& pose) const {
   const Matrix3d Q = rotation(pose.q);
   Vector6d out;
   for (int i = 0; i < leg_count; ++i) {
-    const LegModel<double>& leg = model_.legs[static_cast<std::size_t>(i)];
+    const LegModel<double>& leg = model_.legs[i];
     out(i) = x(i).dot(pose.p + Q * leg.b - leg.a);  // (paper, eq. 13)
   }
   return out;
@@ -88,7 +87,7 @@ double Planes::newtonStep(const Vector6d& mismatch, PlacedPlatform& pose, int& o
   const Matrix3d Q = rotation(pose.q);
   Matrix6d B;  // of (23), moments over the machine's length
   for (int i = 0; i < leg_count; ++i) {
-    const Vector3d Qb = Q * model_.legs[static_cast<std::size_t>(i)].b;
+    const Vector3d Qb = Q * model_.legs[i].b;
     B.row(i) << Qb.cross(x(i)).transpose() / model_.length, x(i).transpose();  // (paper, eq. 23)
   }
   const Eigen::PartialPivLU<Matrix6d> lu(B);
@@ -118,14 +117,14 @@ Elimination Planes::eliminateP() const {
   const Matrix6d all = X.householderQ();
   Eigen::Matrix<double, 10, leg_count> packed_planes;
   for (int i = 0; i < leg_count; ++i) {
-    const LegModel<double>& leg = model_.legs[static_cast<std::size_t>(i)];
+    const LegModel<double>& leg = model_.legs[i];
     packed_planes.col(i) = packed(planeQuadric(x(i), leg.a, leg.b));
   }
   const Eigen::Matrix<double, 10, 3> three = packed_planes * all.rightCols<3>();
   const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, 10, 3>> qr(three);
   out.independence = pivotRatio(qr);
   const Eigen::Matrix<double, 10, 3> orthonormal = qr.householderQ() * Eigen::Matrix<double, 10, 3>::Identity();
-  for (int k = 0; k < 3; ++k) out.quadrics.S[static_cast<std::size_t>(k)] = unpacked(orthonormal.col(k));
+  for (int k = 0; k < 3; ++k) out.quadrics.S[k] = unpacked(orthonormal.col(k));
   return out;
 }
 

@@ -31,7 +31,7 @@ Q4<Scalar> newtonStep(const ThreeQuadrics& quadrics, const Q4<Scalar>& q) {
   Eigen::Matrix<Scalar, 4, 4> J;
   Q4<Scalar> f;
   for (int k = 0; k < 3; ++k) {
-    const Q4<Scalar> Sq = quadrics.S[static_cast<std::size_t>(k)] * q;
+    const Q4<Scalar> Sq = quadrics.S[k] * q;
     J.row(k) = 2 * Sq.transpose();
     f(k) = Sq.cwiseProduct(q).sum();
   }
@@ -81,7 +81,7 @@ Flattest flattest(const ThreeQuadrics& quadrics, const ComplexQ& q) {
   Eigen::Matrix<Complex, 3, 4> J;
   Eigen::Vector3cd f, curvature;
   for (int k = 0; k < 3; ++k) {
-    const ComplexQ Sq = quadrics.S[static_cast<std::size_t>(k)] * q;
+    const ComplexQ Sq = quadrics.S[k] * q;
     J.row(k) = 2 * Sq.transpose();
     f(k) = (q.transpose() * Sq).value();
   }
@@ -89,8 +89,7 @@ Flattest flattest(const ThreeQuadrics& quadrics, const ComplexQ& q) {
   Flattest out;
   out.n = svd.matrixV().col(2);
   out.sigma = svd.singularValues()(2);
-  for (int k = 0; k < 3; ++k)
-    curvature(k) = (out.n.transpose() * quadrics.S[static_cast<std::size_t>(k)] * out.n).value();
+  for (int k = 0; k < 3; ++k) curvature(k) = (out.n.transpose() * quadrics.S[k] * out.n).value();
   const Eigen::Vector3cd u = svd.matrixU().col(2);
   out.f = u.dot(f);
   out.kappa = u.dot(curvature);
@@ -142,7 +141,7 @@ class RootCollector {
   Roots count() {
     roots_.counted = 0;
     for (int i = 0; i < roots_.size; ++i) {
-      Root& root = roots_.list[static_cast<std::size_t>(i)];
+      Root& root = roots_.list[i];
       const int conjugates = root.real ? 1 : 2;
       const bool multiple = root.multiplicity > conjugates && isMultiple(quadrics_, rounding_, root.q);
       root.multiplicity = multiple ? root.multiplicity / conjugates : 1;  // else it was found twice
@@ -174,7 +173,7 @@ class RootCollector {
 
   void insert(const ComplexQ& q, bool real, int weight) {
     for (int i = 0; i < roots_.size; ++i) {
-      Root& root = roots_.list[static_cast<std::size_t>(i)];
+      Root& root = roots_.list[i];
       if (root.real != real) continue;
       for (const ComplexQ& candidate : {q, ComplexQ(q.conjugate())}) {
         if (!(distance(root.q, candidate) <= cluster_radius)) continue;
@@ -187,7 +186,7 @@ class RootCollector {
       }
     }
     if (roots_.size == root_count) return;
-    roots_.list[static_cast<std::size_t>(roots_.size++)] = {q, real, weight};
+    roots_.list[roots_.size++] = {q, real, weight};
   }
 
   const ThreeQuadrics& quadrics_;

@@ -61,13 +61,13 @@ int directOfMechanism(const MechanismScenario& scenario, const std::filesystem::
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(q.cols());
     LoopWork work;
     for (Eigen::Index i = 0; i < q.rows(); ++i) try {
-        const MotorMotion asked{t == nullptr ? 0 : (*t)[static_cast<std::size_t>(i)], q.row(i), rest, rest};
+        const MotorMotion asked{t == nullptr ? 0 : (*t)[i], q.row(i), rest, rest};
         path.solver().moveTo(asked.q, pose);
         path.solver().kinematics(asked, pose, work);
         pose = work.pose;
         table.add(asked.t, asked.q, work);
       } catch (const LoopError& error) {
-        throw CsvError(fmt::format("{}: error: {}", given.place(static_cast<std::size_t>(i)), error.what()));
+        throw CsvError(fmt::format("{}: error: {}", given.place(i), error.what()));
       }
     writeOutput(out, table.text());
     return exit_passed;

@@ -15,8 +15,7 @@ Vector6d missing(const Noc<double>& solver, const NocWorkspace<double>& work, co
   Vector6d out;
   for (int m = 0; m < motor_count; ++m) {
     const double difference = driven(m) - found(m);
-    out(m) =
-        solver.machine().motors[static_cast<std::size_t>(m)].slides() ? difference : std::remainder(difference, 2 * pi);
+    out(m) = solver.machine().motors[m].slides() ? difference : std::remainder(difference, 2 * pi);
   }
   return out;
 }
@@ -25,9 +24,8 @@ Vector6d missing(const Noc<double>& solver, const NocWorkspace<double>& work, co
 double sizeOf(const Noc<double>& solver, const Vector6d& driven) {
   double largest = 0;
   for (int m = 0; m < motor_count; ++m)
-    largest = std::max(
-        largest, std::abs(driven(m)) *
-                     (solver.machine().motors[static_cast<std::size_t>(m)].slides() ? 1 : solver.machine().length));
+    largest =
+        std::max(largest, std::abs(driven(m)) * (solver.machine().motors[m].slides() ? 1 : solver.machine().length));
   return largest;
 }
 
@@ -51,8 +49,7 @@ PlatformPose poseAt(const Noc<double>& solver, const Motion<double>& motion, con
   pose.assembles = pose.front = true;
   const JointVariables<double> joints = solver.angles(work);
   for (int i = 0; i < solver.machine().legs_in_all; ++i)
-    pose.legs[static_cast<std::size_t>(i)] = {work.legs[static_cast<std::size_t>(i)].AB.norm(), true, true,
-                                              joints.psi(i), joints.theta(i)};
+    pose.legs[i] = {work.legs[i].AB.norm(), true, true, joints.psi(i), joints.theta(i)};
   return pose;
 }
 

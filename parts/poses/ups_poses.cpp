@@ -144,8 +144,8 @@ UpsPoses upsPoses(const Manipulator& machine, const Vector6d& driven) {
   Vector6d radii;
   for (int i = 0; i < leg_count; ++i) {
     const Sphere sphere(machine.leg(i), driven(i));
-    centres[static_cast<std::size_t>(i)] = sphere.centre;
-    platform[static_cast<std::size_t>(i)] = machine.leg(i).platform_point;
+    centres[i] = sphere.centre;
+    platform[i] = machine.leg(i).platform_point;
     radii(i) = sphere.radius;
   }
   return upsPoses(centres, platform, radii);

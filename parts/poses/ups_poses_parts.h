@@ -135,12 +135,10 @@ Equations<Scalar> equations(const LegsOver<LegScalar>& legs, const Placed<Scalar
   const Mat3<Scalar> Q = rotation<Scalar>(at.q);
   double largest = 0;
   for (int k = 0; k < 6; ++k) {
-    const auto leg = static_cast<std::size_t>(k);
-    const Vec3<Scalar> Qb = Q * legs.b[leg].template cast<Scalar>(),
-                       v = at.p + Qb - legs.a[leg].template cast<Scalar>();
+    const Vec3<Scalar> Qb = Q * legs.b[k].template cast<Scalar>(), v = at.p + Qb - legs.a[k].template cast<Scalar>();
     out.f(k) = product(v, v) - Scalar(legs.d(k) * legs.d(k));
     out.J.row(k) << 2.0 * crossed<Scalar>(Qb, v).transpose(), 2.0 * v.transpose();
-    const double terms = at.p.norm() + Q.norm() * legs.b[leg].norm() + legs.a[leg].norm() + std::abs(legs.d(k));
+    const double terms = at.p.norm() + Q.norm() * legs.b[k].norm() + legs.a[k].norm() + std::abs(legs.d(k));
     largest = std::max(largest, terms * terms);
     out.curvature = std::max(out.curvature, (1 + Qb.norm()) * (1 + Qb.norm()) + v.norm() * Qb.norm());
   }

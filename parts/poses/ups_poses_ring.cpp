@@ -113,14 +113,14 @@ class Ring {
  public:
   explicit Ring(const Section& map) {
     for (auto& by_j : by_) by_j.setZero(up_to_4, up_to_4);
-    for (int j = 0; j < variable_count; ++j) by_[static_cast<std::size_t>(j)](0, up_to_0 + j) = 1;
+    for (int j = 0; j < variable_count; ++j) by_[j](0, up_to_0 + j) = 1;
     addSecond(map);
     addProducts(up_to_1, up_to_2, up_to_3);
     addProducts(up_to_2, up_to_3, up_to_4);
     addProducts(up_to_3, up_to_4, up_to_4);
   }
 
-  const Eigen::MatrixXd& by(int j) const { return by_[static_cast<std::size_t>(j)]; }
+  const Eigen::MatrixXd& by(int j) const { return by_[j]; }
   double pivot() const { return pivot_; }
 
  private:
@@ -138,8 +138,7 @@ Eigen::MatrixXd quadricRows(const Section& map) {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(quadric_count, monomial_count + up_to_1);
   for (int k = 0; k < quadric_count; ++k) {
     Eigen::Matrix<double, section_count, section_count> S = Eigen::Matrix<double, section_count, section_count>::Zero();
-    for (const Term& term : quadrics[static_cast<std::size_t>(k)])
-      S += term.value * map.row(term.i).transpose() * map.row(term.j);
+    for (const Term& term : quadrics[k]) S += term.value * map.row(term.i).transpose() * map.row(term.j);
     rows(k, monomial_count) = S(0, 0);
     for (int a = 0; a < variable_count; ++a) {
       rows(k, monomial_count + 1 + a) = S(0, a + 1) + S(a + 1, 0);
@@ -172,8 +171,7 @@ void Ring::addSecond(const Section& map) {
                                                 monomial_count - quadric_count, pivot_);
   for (int a = 0; a < variable_count; ++a)
     for (int b = 0; b < variable_count; ++b)
-      by_[static_cast<std::size_t>(a)].row(up_to_0 + b).head<up_to_2>() =
-          second.row(pair(a, b)) / (a == b ? 1 : std::sqrt(2.0));
+      by_[a].row(up_to_0 + b).head<up_to_2>() = second.row(pair(a, b)) / (a == b ? 1 : std::sqrt(2.0));
 }
 
 /// Returns yᵢ(yⱼ f) − yⱼ(yᵢ f) for all j < i and basis elements f in [below, from). The columns are coefficients of the
@@ -199,8 +197,7 @@ void Ring::addProducts(int from, int to, int next) {
   const int degree = to - from, products = variable_count * degree;
   const Eigen::MatrixXd rows = relations(below, from, to);
   const Eigen::MatrixXd w = solveRelations(rows.leftCols(products), rows.rightCols(to), next - to, pivot_);
-  for (int j = 0; j < variable_count; ++j)
-    by_[static_cast<std::size_t>(j)].block(from, 0, degree, next) = w.middleRows(degree * j, degree);
+  for (int j = 0; j < variable_count; ++j) by_[j].block(from, 0, degree, next) = w.middleRows(degree * j, degree);
 }
 
 }  // namespace
@@ -209,7 +206,7 @@ void Ring::addProducts(int from, int to, int next) {
 LegSection legSection(const Legs& legs) {
   Eigen::Matrix<double, coordinate_count, 6> rows;
   for (int k = 0; k < 6; ++k) {
-    const Vector3d &a = legs.a[static_cast<std::size_t>(k)], &b = legs.b[static_cast<std::size_t>(k)];
+    const Vector3d &a = legs.a[k], &b = legs.b[k];
     rows(at_h, k) = a.squaredNorm() + b.squaredNorm() - legs.d(k) * legs.d(k);
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) rows(q(i, j), k) = -2 * a(i) * b(j);

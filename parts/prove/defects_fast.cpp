@@ -29,7 +29,7 @@ Defect numbers(const char* name, const std::function<void(FastModel&)>& change) 
 
 Defect ofLegs(const char* name, const std::function<void(FastLeg&)>& change) {
   return numbers(name, [change](FastModel& machine) {
-    for (int i = 0; i < machine.legs_in_all; ++i) change(machine.legs[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < machine.legs_in_all; ++i) change(machine.legs[i]);
   });
 }
 
@@ -254,9 +254,9 @@ std::vector<Defect> ofLegFrameAndUnit() {
 /// Gives each motor the next one's rotor; equal motors would hide the change.
 void passRotorsOn(Read& machine) {
   const auto rotorOf = [&machine](const Motor& motor) -> double& {
-    LegModel<double>& leg = machine.legs[static_cast<std::size_t>(motor.leg)];
+    LegModel<double>& leg = machine.legs[motor.leg];
     leg.has_rotor = true;
-    return leg.rotor[static_cast<std::size_t>(motor.joint)];
+    return leg.rotor[motor.joint];
   };
   for (std::size_t m = 0; m + 1 < machine.motors.size(); ++m)
     std::swap(rotorOf(machine.motors[m]), rotorOf(machine.motors[m + 1]));

@@ -79,12 +79,11 @@ Defect lateLoad() {
 
 /// Efforts numbered by coordinate, then by leg.
 Vector6d numberedByCoordinate(const Vector6d& efforts, const Motors& motors) {
-  std::array<int, motor_count> order = {0, 1, 2, 3, 4, 5};
-  std::stable_sort(order.begin(), order.end(), [&motors](int a, int b) {
-    return motors[static_cast<std::size_t>(a)].coordinate < motors[static_cast<std::size_t>(b)].coordinate;
-  });
+  PerMotor<int> order = {0, 1, 2, 3, 4, 5};
+  std::stable_sort(order.begin(), order.end(),
+                   [&motors](int a, int b) { return motors[a].coordinate < motors[b].coordinate; });
   Vector6d out;
-  for (int k = 0; k < motor_count; ++k) out(k) = efforts(order[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < motor_count; ++k) out(k) = efforts(order[k]);
   return out;
 }
 
@@ -93,7 +92,7 @@ Defect wrongEfforts(const std::string& name, Coordinate coordinate, double facto
   return wrongTorques(name, "torque", [coordinate, factor](const Scenario& s) -> ChangeTorques {
     return [motors = s.manipulator->motors(), coordinate, factor](Vector6d torques, const Motion<double>&) {
       for (int k = 0; k < motor_count; ++k)
-        if (motors[static_cast<std::size_t>(k)].coordinate == coordinate) torques(k) *= factor;
+        if (motors[k].coordinate == coordinate) torques(k) *= factor;
       return torques;
     };
   });

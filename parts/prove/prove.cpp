@@ -97,18 +97,17 @@ std::vector<Sensitivity> proveSensitivities(const Scenario& scenario) {
 
 RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::function<void(int)>& done,
                            RandomKind kind) {
-  std::vector<Verdict> verdicts(static_cast<std::size_t>(count), Verdict::fail);
-  std::vector<std::string> why(static_cast<std::size_t>(count));
-  std::vector<std::vector<Check>> checks(static_cast<std::size_t>(count));
+  std::vector<Verdict> verdicts(count, Verdict::fail);
+  std::vector<std::string> why(count);
+  std::vector<std::vector<Check>> checks(count);
   inParallel(jobs, count, [&](int k) {
-    const auto i = static_cast<std::size_t>(k);
-    const Scenario scenario = sampledForMany(randomScenario(seed + i, kind));
+    const Scenario scenario = sampledForMany(randomScenario(seed + k, kind));
     ValidationOptions options;
     options.budget = false;
     const ValidationResult result = validate(scenario, options);
-    verdicts[i] = result.verdict;
-    checks[i] = result.checks;
-    if (result.verdict != Verdict::pass) why[i] = worstText(seed + i, result.checks);
+    verdicts[k] = result.verdict;
+    checks[k] = result.checks;
+    if (result.verdict != Verdict::pass) why[k] = worstText(seed + k, result.checks);
     done(count);
   });
   RandomOutcomes out;

@@ -131,7 +131,7 @@ DefectProof proveDefects(const Scenario& scenario, int jobs, const std::function
   const Proof proof(sampledForMany(scenario));
   std::vector<DefectOutcome> outcomes(defects.size());
   inParallel(jobs, static_cast<int>(defects.size()), [&](int k) {
-    outcomes[static_cast<std::size_t>(k)] = proof.judge(defects[static_cast<std::size_t>(k)]);
+    outcomes[k] = proof.judge(defects[k]);
     done(static_cast<int>(defects.size()));
   });
   DefectProof out;

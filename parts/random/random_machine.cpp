@@ -128,7 +128,7 @@ void someOf(Dice& dice, bool (LegKindRow::*is)() const, std::vector<Leg>& legs, 
   const int first = dice.whole(0, count - 1);
   int left = dice.whole(1, 2);
   for (int k = 0; k < count && left > 0; ++k) {
-    Leg& leg = legs[static_cast<std::size_t>((first + k) % count)];
+    Leg& leg = legs[(first + k) % count];
     if (!(rowOf(leg.kind).*is)()) continue;
     change(leg);
     --left;
@@ -155,7 +155,7 @@ void drawLinks(Dice& dice, const RandomRecipe& recipe, std::vector<Leg>& legs) {
            [&](Leg& leg) { leg.base_point += dice.spreadOfEitherSign(1, 30) * leg.base_axis.normalized(); });
   if (!recipe.near_singular || dice.chance(0.4)) return;
   const int first = dice.whole(0, count - 1), some = dice.whole(1, 2);
-  for (int k = 0; k < some; ++k) closeNearly(dice, legs[static_cast<std::size_t>((first + k) % count)]);
+  for (int k = 0; k < some; ++k) closeNearly(dice, legs[(first + k) % count]);
 }
 
 /// Returns legs that reach their platform points, with lengths in the machine's own and points relative to the middle
@@ -167,8 +167,8 @@ std::vector<Leg> randomLayout(Dice& dice, const RandomRecipe& recipe) {
   const Rings rings = randomRings(dice, recipe.arrangement);
   std::vector<Leg> legs = recipe.legs;
   const int count = static_cast<int>(legs.size());
-  for (int i = 0; i < count; ++i) placeLeg(dice, recipe, rings, i, legs[static_cast<std::size_t>(i)]);
-  if (recipe.axis_along_z) legs[static_cast<std::size_t>(dice.whole(0, count - 1))].base_axis = axisAlongZ(dice);
+  for (int i = 0; i < count; ++i) placeLeg(dice, recipe, rings, i, legs[i]);
+  if (recipe.axis_along_z) legs[dice.whole(0, count - 1)].base_axis = axisAlongZ(dice);
   drawLinks(dice, recipe, legs);
   return legs;
 }

@@ -14,11 +14,11 @@ std::vector<int> randomMotorCounts(Dice& dice, RandomKind kind) {
   if (kind != RandomKind::mixture && kind != RandomKind::two_motors) return std::vector<int>(leg_count, 1);
   const bool few = kind == RandomKind::two_motors;
   const int legs = few ? (dice.chance(0.6) ? 3 : dice.whole(3, 5)) : dice.whole(4, 6);
-  std::vector<int> counts(static_cast<std::size_t>(legs), 1);
+  std::vector<int> counts(legs, 1);
   const bool even = few && legs == 3 && dice.chance(0.7);
   if (even) return {2, 2, 2};
   for (int left = motor_count - legs; left > 0;) {
-    int& count = counts[static_cast<std::size_t>(dice.whole(0, legs - 1))];
+    int& count = counts[dice.whole(0, legs - 1)];
     if (count == 3) continue;
     ++count;
     --left;
@@ -34,7 +34,7 @@ std::array<bool, 3> randomMotors(Dice& dice, LegKind kind, int count, bool other
     --count;
   }
   while (count > 0) {
-    bool& one = driven[static_cast<std::size_t>(dice.whole(0, 2))];
+    bool& one = driven[dice.whole(0, 2)];
     if (one) continue;
     one = true;
     --count;

@@ -82,13 +82,13 @@ struct ReachEnds {
   explicit ReachEnds(const Manipulator& machine) : legs(machine.parameters().legs) {}
 
   double of(const JointVariables<double>& q, int i) const {
-    const Leg& leg = legs[static_cast<std::size_t>(i)];
+    const Leg& leg = legs[i];
     return typeOf(leg.kind).margin(leg, q, i);
   }
 
   std::runtime_error outOfReach(const JointVariables<double>& q, int i, double t) const {
     return std::runtime_error(fmt::format("the motion leaves what leg {} reaches: it is {} at t = {:.9g} s", i + 1,
-                                          typeOf(legs[static_cast<std::size_t>(i)].kind).endOfReach(q, i), t));
+                                          typeOf(legs[i].kind).endOfReach(q, i), t));
   }
 
   std::vector<Leg> legs;

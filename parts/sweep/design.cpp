@@ -87,7 +87,7 @@ std::vector<double> SweepPoints::at(std::int64_t i) const {
   if (design_ == SweepDesign::grid) {
     for (std::size_t k = out.size(); k-- > 0;) {
       const auto size = static_cast<std::int64_t>(numbers_[k].by.values.size());
-      out[k] = numbers_[k].by.values[static_cast<std::size_t>(i % size)];
+      out[k] = numbers_[k].by.values[i % size];
       i /= size;
     }
     return out;

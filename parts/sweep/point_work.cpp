@@ -190,7 +190,7 @@ class SweepWorker {
         if (exceeds(sizes(k), efforts(k))) efforts(k) = sizes(k), times(k) = t;
     }
     for (Eigen::Index k = 0; k < n; ++k) {
-      add(motorColumn(*scenario.mechanism, static_cast<std::size_t>(k), "tau"), efforts(k), point);
+      add(motorColumn(*scenario.mechanism, k, "tau"), efforts(k), point);
       add(fmt::format("tau_{}_t_s", k + 1), times(k), point);
     }
     add("kappa_passive", condition, point);

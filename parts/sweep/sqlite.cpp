@@ -166,7 +166,7 @@ double Statement::real(int k) const {
 
 std::string Statement::text(int k) const {
   const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(handle_, k));
-  return bytes == nullptr ? "" : std::string(bytes, static_cast<std::size_t>(sqlite3_column_bytes(handle_, k)));
+  return bytes == nullptr ? "" : std::string(bytes, sqlite3_column_bytes(handle_, k));
 }
 
 }  // namespace ursula

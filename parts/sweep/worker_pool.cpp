@@ -38,7 +38,7 @@ std::vector<SweepPoint> takePoints(std::string& bytes) {
     at += sizeof size;
     out.push_back(nlohmann::json::from_cbor(at, at + size).get<SweepPoint>());
   }
-  bytes.erase(0, static_cast<std::size_t>(at - bytes.data()));
+  bytes.erase(0, at - bytes.data());
   return out;
 }
 
@@ -86,7 +86,7 @@ class BrokenPipesIgnored {
 
 class WorkerPool {
  public:
-  WorkerPool(int workers, const WorkerTasks& tasks) : tasks_(tasks), workers_(static_cast<std::size_t>(workers)) {}
+  WorkerPool(int workers, const WorkerTasks& tasks) : tasks_(tasks), workers_(workers) {}
 
   bool run() {
     const BrokenPipesIgnored ignored;
@@ -148,7 +148,7 @@ class WorkerPool {
       crashed(worker);
       return;
     }
-    worker.arrived.append(buffer.data(), static_cast<std::size_t>(got));
+    worker.arrived.append(buffer.data(), got);
     for (const SweepPoint& point : takePoints(worker.arrived)) {
       PointRange& range = worker.given.front();
       if (++range.first == range.end) worker.given.pop_front();

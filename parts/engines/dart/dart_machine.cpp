@@ -51,8 +51,7 @@ dd::UniversalJoint::Properties universal(const Vector3d& first, const Vector3d& 
 /// Adds a leg's body behind its one or two joints; two make a universal joint.
 dd::BodyNode* addBody(const dd::SkeletonPtr& skeleton, dd::BodyNode* parent, const LegChain& chain, int link,
                       const std::string& name) {
-  const auto at = static_cast<std::size_t>(link);
-  const auto properties = bodyOf(name, chain.links[at], chain.centers[at]);
+  const auto properties = bodyOf(name, chain.links[link], chain.centers[link]);
   const int first = chain.firstOf(link);
   const Vector3d& axis = chain.joint(first).axis;
   const Eigen::Isometry3d place = chain.place(first);
@@ -142,7 +141,7 @@ void DartMachine::readMaps(PlacedTree& out) {
 }
 
 double DartMachine::coordinate(int leg, int j) const {
-  const auto [joint, which] = legs[static_cast<std::size_t>(leg)].place(j);
+  const auto [joint, which] = legs[leg].place(j);
   return joint->getPosition(which);
 }
 
@@ -194,7 +193,7 @@ double DartMachine::energy() {
 }
 
 void DartMachine::addEffort(int leg, int j, double effort) {
-  const auto [joint, which] = legs[static_cast<std::size_t>(leg)].place(j);
+  const auto [joint, which] = legs[leg].place(j);
   joint->setForce(which, joint->getForce(which) + unit_ * effort);
 }
 

@@ -19,7 +19,7 @@ struct DartLeg {
 
   /// Returns the joint of the leg's j-th coordinate, and the coordinate's index in that joint.
   std::pair<dart::dynamics::Joint*, std::size_t> place(int j) const {
-    const auto at = static_cast<std::size_t>(j), first = joints[0]->getNumDofs();
+    const std::size_t at = j, first = joints[0]->getNumDofs();
     return at < first ? std::pair{joints[0], at} : std::pair{joints[1], at - first};
   }
 };

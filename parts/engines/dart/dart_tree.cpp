@@ -44,7 +44,7 @@ class DartTree : public SpeedsOfWelds {
 
   Eigen::Index count() const override { return static_cast<Eigen::Index>(skeleton_->getNumDofs()); }
   bool isLinear(Eigen::Index i) const override {
-    const dd::DegreeOfFreedom* at = skeleton_->getDof(static_cast<std::size_t>(i));
+    const dd::DegreeOfFreedom* at = skeleton_->getDof(i);
     const dd::Joint* joint = at->getJoint();
     return joint->getType() == dd::PrismaticJoint::getStaticType() ||
            (joint->getType() == dd::FreeJoint::getStaticType() && at->getIndexInJoint() >= 3);
@@ -83,8 +83,7 @@ class DartTree : public SpeedsOfWelds {
     const auto found = joints_.find(joint);
     if (found == joints_.end() || found->second.joint->getNumDofs() > 2) return std::nullopt;
     const auto [at, reversed] = found->second;
-    const std::size_t k =
-        reversed ? at->getNumDofs() - 1 - static_cast<std::size_t>(index) : static_cast<std::size_t>(index);
+    const int k = reversed ? static_cast<int>(at->getNumDofs()) - 1 - index : index;
     const double sign = reversed ? -1 : 1;
     return Own{static_cast<Eigen::Index>(at->getIndexInSkeleton(k)), sign, sign * at->getPosition(k)};
   }

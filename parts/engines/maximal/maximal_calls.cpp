@@ -31,7 +31,7 @@ class MaximalCalls : public LoopEngine {
     const Eigen::VectorXd wrenches = loop_.unbalanced(motion);
     for (int i = 0; i < manipulator().legCount(); ++i) addLeg(i, wrenches);
     for (const Motor& motor : manipulator().motors())
-      tree_.legs[static_cast<std::size_t>(motor.leg)].force(motor.joint) +=
+      tree_.legs[motor.leg].force(motor.joint) +=
           manipulator().leg(motor.leg).rotor_inertia.on(motor.coordinate) * loop_.accelerationOf(motor);
     tree_.force = wrenches.tail<6>();
     return tree_;
@@ -62,7 +62,7 @@ class MaximalCalls : public LoopEngine {
     const auto& coordinates = rowOf(manipulator().leg(i).kind).coordinates;
     for (int j = 0; j < 3; ++j) {
       Eigen::VectorXd unit = Eigen::VectorXd::Zero(loop_.coordinates());
-      loop_.addEffort({i, j, coordinates[static_cast<std::size_t>(j)]}, unit);
+      loop_.addEffort({i, j, coordinates[j]}, unit);
       K.col(rows + j) << unit.segment<6>(6 * i), unit.segment<6>(second);
     }
     Eigen::Matrix<double, 12, 1> on_leg;
@@ -70,14 +70,14 @@ class MaximalCalls : public LoopEngine {
     const Eigen::Matrix<double, 12, 3> twists = Square(K.inverse()).bottomRows<3>().transpose();
 
     const Leg& from = manipulator().leg(i);
-    const BodyMotion<double>& distal = loop_.bodies_[static_cast<std::size_t>(legs + i)];
-    const Vector3d& B = loop_.legs_[static_cast<std::size_t>(i)].B;
+    const BodyMotion<double>& distal = loop_.bodies_[legs + i];
+    const Vector3d& B = loop_.legs_[i].B;
     const Vector3d arm = distal.R * (Vector3d(0, 0, from.distal.length) - from.distalCenter());
-    OpenTree::Leg& leg = tree_.legs[static_cast<std::size_t>(i)];
+    OpenTree::Leg& leg = tree_.legs[i];
     leg.force = twists.transpose() * on_leg;
     leg.J = velocities(Eigen::Matrix<double, 6, 3>(twists.bottomRows<6>()), arm);
     leg.P = velocities(Matrix6d(Matrix6d::Identity()), B - loop_.bodies_.back().c);
-    tree_.gaps[static_cast<std::size_t>(i)] = distal.c + arm - B;
+    tree_.gaps[i] = distal.c + arm - B;
   }
 
   MaximalLoop loop_;

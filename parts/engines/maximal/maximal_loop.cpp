@@ -14,11 +14,9 @@ using Bodies = std::vector<BodyMotion<double>>;
 
 constexpr int rows_per_leg = 12, rows_of_ball = 3;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 const BodyMotion<double>& bodyOf(const Bodies& bodies, int body) {
   static const BodyMotion<double> base;
-  return body == base_body ? base : bodies[at(body)];
+  return body == base_body ? base : bodies[body];
 }
 
 Vector3d omegaOf(const BodyMotion<double>& body) { return body.twist.head<3>(); }
@@ -42,8 +40,8 @@ Eigen::Matrix<double, 3, 6> pointRows(const BodyMotion<double>& body, const Vect
 
 /// Adds the rows of a point that two bodies share: v_parent − v_child = 0.
 void addPoint(const Bodies& bodies, int parent, int child, const Vector3d& point, int row, Eigen::MatrixXd& G) {
-  if (parent != base_body) G.block<3, 6>(row, 6 * parent) = pointRows(bodies[at(parent)], point);
-  G.block<3, 6>(row, 6 * child) = -pointRows(bodies[at(child)], point);
+  if (parent != base_body) G.block<3, 6>(row, 6 * parent) = pointRows(bodies[parent], point);
+  G.block<3, 6>(row, 6 * child) = -pointRows(bodies[child], point);
 }
 
 /// Adds the row that forbids relative rotation about `normal`: (ω_child − ω_parent) · n = 0.
@@ -57,8 +55,8 @@ void addSlide(const Bodies& bodies, const Joint& joint, int row, Eigen::MatrixXd
   for (int k = 0; k < 3; ++k) addNormal(joint, Vector3d::Unit(k), row + k, G);
   const Eigen::Matrix<double, 2, 3> across = joint.across.transpose();
   if (joint.parent != base_body)
-    G.block<2, 6>(row + 3, 6 * joint.parent) = across * pointRows(bodies[at(joint.parent)], joint.point);
-  G.block<2, 6>(row + 3, 6 * joint.child) = -across * pointRows(bodies[at(joint.child)], joint.point);
+    G.block<2, 6>(row + 3, 6 * joint.parent) = across * pointRows(bodies[joint.parent], joint.point);
+  G.block<2, 6>(row + 3, 6 * joint.child) = -across * pointRows(bodies[joint.child], joint.point);
 }
 
 void addJoint(const Bodies& bodies, const Joint& joint, int row, Eigen::MatrixXd& G) {
@@ -91,11 +89,11 @@ Eigen::VectorXd gammaOf(const Bodies& bodies, const Joint& joint) {
 
 /// Adds a moment about, or a force along, the joint's k-th axis to the child, and its reaction to the parent.
 void addForce(const Bodies& bodies, const Joint& joint, int k, double size, Eigen::Ref<Eigen::VectorXd> wrenches) {
-  const Vector3d given = size * joint.axes[at(k)];
+  const Vector3d given = size * joint.axes[k];
   const auto on = [&](int body) {
     Vector6d wrench;
     if (joint.type == Joint::Type::prismatic)
-      wrench << (joint.point - bodies[at(body)].c).cross(given), given;
+      wrench << (joint.point - bodies[body].c).cross(given), given;
     else
       wrench << given, Vector3d::Zero();
     return wrench;
@@ -120,8 +118,8 @@ double friction(double viscous, double coulomb, double speed, double rate) {
 MaximalLoop::MaximalLoop(const Manipulator& manipulator, std::shared_ptr<const Load> load)
     : manipulator_(manipulator),
       load_(std::move(load)),
-      bodies_(at(2 * manipulator.legCount() + 1)),
-      legs_(at(manipulator.legCount())) {}
+      bodies_(2 * manipulator.legCount() + 1),
+      legs_(manipulator.legCount()) {}
 
 MaximalLoop::~MaximalLoop() = default;
 
@@ -143,11 +141,11 @@ void MaximalLoop::place(const Motion<double>& motion) {
   bodies_.back().R = motion.Q;
   bodies_.back().c = motion.p + motion.Q * manipulator_.platform().center_of_mass;
   for (int i = 0; i < legs; ++i) {
-    PlacedLeg& leg = legs_[at(i)];
+    PlacedLeg& leg = legs_[i];
     leg = maximal::placeLeg(manipulator_.leg(i), i, i, legs + i, motion);
     for (int k = 0; k < 2; ++k) {
-      bodies_[at(k * legs + i)].R = leg.R[at(k)];
-      bodies_[at(k * legs + i)].c = leg.c[at(k)];
+      bodies_[k * legs + i].R = leg.R[k];
+      bodies_[k * legs + i].c = leg.c[k];
     }
   }
 }
@@ -158,7 +156,7 @@ void MaximalLoop::solveMotion(const Motion<double>& motion, bool with_gamma) {
   G_.setZero(constraints(), coordinates());
   gamma_.setZero(constraints());
   for (int i = 0; i < legs; ++i) {
-    const PlacedLeg& leg = legs_[at(i)];
+    const PlacedLeg& leg = legs_[i];
     const int row = rows_per_leg * i, ball = row + rows_per_leg - rows_of_ball;
     addJoint(bodies_, leg.joints[0], row, G_);
     addJoint(bodies_, leg.joints[1], row + leg.joints[0].rows(), G_);
@@ -177,9 +175,9 @@ void MaximalLoop::solveMotion(const Motion<double>& motion, bool with_gamma) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b].twist = t.segment<6>(6 * static_cast<int>(b));
 
   for (int i = 0; i < legs; ++i) {
-    const PlacedLeg& leg = legs_[at(i)];
+    const PlacedLeg& leg = legs_[i];
     gamma_.segment<rows_per_leg>(rows_per_leg * i) << gammaOf(bodies_, leg.joints[0]), gammaOf(bodies_, leg.joints[1]),
-        centripetal(bodies_.back(), leg.B) - centripetal(bodies_[at(legs + i)], leg.B);
+        centripetal(bodies_.back(), leg.B) - centripetal(bodies_[legs + i], leg.B);
   }
   if (!with_gamma) gamma_.setZero();
   right.head(constraints()) = gamma_;
@@ -194,21 +192,21 @@ Vector3d MaximalLoop::frictionOf(int index) const {
   const Leg& leg = manipulator_.leg(index);
   Vector3d out;
   for (int j = 0; j < 3; ++j) {
-    const auto [which, k] = jointAndAxis(legs_[at(index)], j);
-    const Joint& joint = legs_[at(index)].joints[at(which)];
+    const auto [which, k] = jointAndAxis(legs_[index], j);
+    const Joint& joint = legs_[index].joints[which];
     const BodyMotion<double>&parent = bodyOf(bodies_, joint.parent), &child = bodyOf(bodies_, joint.child);
     const Vector3d relative = joint.type == Joint::Type::prismatic
                                   ? velocity(child, joint.point) - velocity(parent, joint.point)
                                   : omegaOf(child) - omegaOf(parent);
-    const Coordinate coordinate = rowOf(leg.kind).coordinates[at(j)];
+    const Coordinate coordinate = rowOf(leg.kind).coordinates[j];
     out(j) = friction(leg.friction.on(coordinate), leg.coulomb.on(coordinate), leg.coulomb.speedOf(coordinate),
-                      relative.dot(joint.axes[at(k)]));
+                      relative.dot(joint.axes[k]));
   }
   return out;
 }
 
 void MaximalLoop::subtractFriction(int index, VectorX& w) const {
-  const PlacedLeg& leg = legs_[at(index)];
+  const PlacedLeg& leg = legs_[index];
   const Vector3d on = frictionOf(index);
   VectorX given = VectorX::Zero(coordinates());
   if (leg.joints[1].type == Joint::Type::revolute) {  // ψ and θ turn about one axis
@@ -218,7 +216,7 @@ void MaximalLoop::subtractFriction(int index, VectorX& w) const {
   } else {
     for (int j = 0; j < 3; ++j) {
       const auto [which, k] = jointAndAxis(leg, j);
-      addForce(bodies_, leg.joints[at(which)], k, on(j), given);
+      addForce(bodies_, leg.joints[which], k, on(j), given);
     }
   }
   w -= given;
@@ -230,10 +228,10 @@ MaximalLoop::VectorX MaximalLoop::unbalanced(const Motion<double>& motion) const
   const ManipulatorParameters& machine = manipulator_.parameters();
   const int legs = manipulator_.legCount(), platform = 2 * legs;
   for (int b = 0; b <= platform; ++b) {
-    const Leg& leg = machine.legs[at(b % legs)];
+    const Leg& leg = machine.legs[b % legs];
     const Link& link = b < legs ? leg.proximal : leg.distal;
     const double mass = b == platform ? machine.platform.mass : link.mass;
-    const BodyMotion<double>& body = bodies_[at(b)];
+    const BodyMotion<double>& body = bodies_[b];
     const Matrix3d I = body.R * (b == platform ? machine.platform.inertia : link.inertia) * body.R.transpose();
     const Vector3d omega = omegaOf(body);
     w.segment<6>(6 * b) << I * body.twist_rate.head<3>() + omega.cross(I * omega),
@@ -253,11 +251,11 @@ MaximalLoop::VectorX MaximalLoop::unbalanced(const Motion<double>& motion) const
 /// Returns q̈ of a motor's coordinate from its bodies: the rate of (ω_child − ω_parent) · axis, or of the velocity
 /// along the slide. Along the slide, Coriolis acceleration and the parent's rotation have no part.
 double MaximalLoop::accelerationOf(const Motor& motor) const {
-  const PlacedLeg& leg = legs_[at(motor.leg)];
+  const PlacedLeg& leg = legs_[motor.leg];
   const auto [which, k] = jointAndAxis(leg, motor.joint);
-  const Joint& joint = leg.joints[at(which)];
+  const Joint& joint = leg.joints[which];
   const BodyMotion<double>&parent = bodyOf(bodies_, joint.parent), &child = bodyOf(bodies_, joint.child);
-  const Vector3d& axis = joint.axes[at(k)];
+  const Vector3d& axis = joint.axes[k];
   if (joint.type == Joint::Type::prismatic) {
     const auto acceleration = [&](const BodyMotion<double>& body) {
       return Vector3d(body.twist_rate.tail<3>() + body.twist_rate.head<3>().cross(joint.point - body.c) +
@@ -271,9 +269,9 @@ double MaximalLoop::accelerationOf(const Motor& motor) const {
 
 /// Adds the wrenches of a unit effort of one motor.
 void MaximalLoop::addEffort(const Motor& motor, Eigen::Ref<VectorX> wrenches) const {
-  const PlacedLeg& leg = legs_[at(motor.leg)];
+  const PlacedLeg& leg = legs_[motor.leg];
   const auto [which, k] = jointAndAxis(leg, motor.joint);
-  addForce(bodies_, leg.joints[at(which)], k, 1, wrenches);
+  addForce(bodies_, leg.joints[which], k, 1, wrenches);
 }
 
 Vector6d MaximalLoop::inverseDynamics(const Motion<double>& motion) {
@@ -287,11 +285,11 @@ Vector6d MaximalLoop::balance(const Motion<double>& motion) const {
   MatrixX multipliers_and_efforts = MatrixX::Zero(coordinates(), coordinates());
   multipliers_and_efforts.leftCols(constraints()) = G_.transpose();
   for (int m = 0; m < motor_count; ++m)
-    addEffort(manipulator_.motors()[at(m)], multipliers_and_efforts.col(constraints() + m));
+    addEffort(manipulator_.motors()[m], multipliers_and_efforts.col(constraints() + m));
   const VectorX solution = multipliers_and_efforts.partialPivLu().solve(unbalanced(motion));
   Vector6d efforts = solution.tail<6>();
   for (int m = 0; m < motor_count; ++m) {  // j q̈ of the rotor
-    const Motor& motor = manipulator_.motors()[at(m)];
+    const Motor& motor = manipulator_.motors()[m];
     const double rotor = manipulator_.leg(motor.leg).rotor_inertia.on(motor.coordinate);
     if (rotor != 0) efforts(m) += rotor * accelerationOf(motor);
   }

@@ -145,7 +145,7 @@ PlacedLeg placeLeg(const Leg& leg, int index, int first, int second, const Motio
   PlacedLeg out;
   out.B = B;
   const LegKindRow& row = rowOf(leg.kind);
-  for (int link = 0; link < 2; ++link) out.joints[static_cast<std::size_t>(link)].type = jointOf(row, link);
+  for (int link = 0; link < 2; ++link) out.joints[link].type = jointOf(row, link);
   out.joints[0].child = out.joints[1].parent = first;
   out.joints[1].child = second;
   out.joints[0].point = ends.A;

@@ -51,9 +51,8 @@ Softness softnessOf(const Rigidity& rigidity) {
 /// MuJoCo gives the sites' positions in the world's axes.
 void readGaps(const mjData& data, int legs, PlacedTree& out) {
   for (int i = 0; i < legs; ++i)
-    out.gaps[static_cast<std::size_t>(i)] =
-        Eigen::Map<const Vector3d>(data.site_xpos + 3 * mujoco::siteOnLeg(i)) -
-        Eigen::Map<const Vector3d>(data.site_xpos + 3 * mujoco::siteOnPlatform(legs, i));
+    out.gaps[i] = Eigen::Map<const Vector3d>(data.site_xpos + 3 * mujoco::siteOnLeg(i)) -
+                  Eigen::Map<const Vector3d>(data.site_xpos + 3 * mujoco::siteOnPlatform(legs, i));
 }
 
 /// Builds the machine at a pose, with loops that MuJoCo's `connect` closes at this softness.
@@ -93,7 +92,7 @@ class MujocoStepped : public SteppedLoop {
     mjData& data = *own_.data;
     VectorOfDofs applied = at_.given(*own_.model, data, platform());
     for (int m = 0; m < motor_count; ++m) {
-      const Motor& motor = at_.manipulator.motors()[static_cast<std::size_t>(m)];
+      const Motor& motor = at_.manipulator.motors()[m];
       applied(dofOf(motor.leg, motor.joint)) += efforts(m);
     }
     std::copy_n(applied.data(), at_.dofs, data.qfrc_applied);
@@ -102,8 +101,7 @@ class MujocoStepped : public SteppedLoop {
 
   void read(State& out) override {
     out.q = forMotors(at_.manipulator, [&](const Motor& motor) {
-      return own_.data->qpos[dofOf(motor.leg, motor.joint)] -
-             (motor.joint == 0 ? at_.offset_of_phi[static_cast<std::size_t>(motor.leg)] : 0);
+      return own_.data->qpos[dofOf(motor.leg, motor.joint)] - (motor.joint == 0 ? at_.offset_of_phi[motor.leg] : 0);
     });
     mj_forward(own_.model.get(), own_.data.get());  // after a step only the positions are up to date
     out.p = platform().p;

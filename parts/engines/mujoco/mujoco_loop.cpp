@@ -46,8 +46,7 @@ MujocoLoop::Impl::Impl(const Manipulator& from, std::shared_ptr<const Load> on_p
       model(mujoco::buildModel(from, origin)),
       data(mujoco::dataOf(*model)),
       G(leg_dofs, dofs) {
-  for (int leg = 0; leg < legs; ++leg)
-    offset_of_phi[static_cast<std::size_t>(leg)] = mujoco::offsetOfPhi(manipulator.leg(leg));
+  for (int leg = 0; leg < legs; ++leg) offset_of_phi[leg] = mujoco::offsetOfPhi(manipulator.leg(leg));
 }
 
 void MujocoLoop::Impl::place(const Motion<double>& motion) {
@@ -147,7 +146,7 @@ Vector6d MujocoLoop::inverseDynamics(const Motion<double>& motion) {
   SquareOfDofs multipliers_and_efforts = SquareOfDofs::Zero(dofs, dofs);
   multipliers_and_efforts.leftCols(leg_dofs) = impl_->G.transpose();
   for (int m = 0; m < motor_count; ++m) {
-    const Motor& motor = impl_->manipulator.motors()[static_cast<std::size_t>(m)];
+    const Motor& motor = impl_->manipulator.motors()[m];
     multipliers_and_efforts(dofOf(motor.leg, motor.joint), leg_dofs + m) = 1;
   }
   const Eigen::PartialPivLU<SquareOfDofs> factors(multipliers_and_efforts);
@@ -167,7 +166,7 @@ void MujocoLoop::Impl::readMaps(const mjModel& in_model, mjData& in_data, OpenTr
   using PointJacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, most_dofs>;
   PointJacobian jacobian(3, dofs);
   for (int i = 0; i < legs; ++i) {
-    OpenTree::Leg& leg = out.legs[static_cast<std::size_t>(i)];
+    OpenTree::Leg& leg = out.legs[i];
     mj_jacSite(&in_model, &in_data, jacobian.data(), nullptr, siteOnLeg(i));
     leg.J = jacobian.middleCols<3>(dofOf(i, 0));
     mj_jacSite(&in_model, &in_data, jacobian.data(), nullptr, siteOnPlatform(legs, i));
@@ -178,7 +177,7 @@ void MujocoLoop::Impl::readMaps(const mjModel& in_model, mjData& in_data, OpenTr
 void MujocoLoop::Impl::readTree(const Motion<double>& motion, const mujoco::VectorOfDofs& forces, OpenTree& out) {
   const mujoco::VectorOfDofs residual = forces - given(*model, *data, motion);
   readMaps(*model, *data, out);
-  for (int i = 0; i < legs; ++i) out.legs[static_cast<std::size_t>(i)].force = residual.segment<3>(dofOf(i, 0));
+  for (int i = 0; i < legs; ++i) out.legs[i].force = residual.segment<3>(dofOf(i, 0));
   out.force = residual.tail<6>();
 }
 

@@ -73,8 +73,7 @@ bool hasJoints(const mjModel& model, int leg, LegKind kind) {
   bool good = model.body_dofadr[proximalBody(leg)] == dofOf(leg, 0) &&
               model.body_dofadr[distalBody(leg)] == dofOf(leg, row.joints_of_proximal);
   for (int joint = 0; joint < joints_per_leg; ++joint)
-    good = good && model.jnt_type[dofOf(leg, joint)] ==
-                       (slides(row.coordinates[static_cast<std::size_t>(joint)]) ? mjJNT_SLIDE : mjJNT_HINGE);
+    good = good && model.jnt_type[dofOf(leg, joint)] == (slides(row.coordinates[joint]) ? mjJNT_SLIDE : mjJNT_HINGE);
   return good;
 }
 
@@ -92,7 +91,7 @@ bool isAsExpected(const mjModel& model, const Structure& structure) {
     };
     good = is(mjOBJ_BODY, "proximal", proximalBody(leg)) && is(mjOBJ_BODY, "distal", distalBody(leg)) &&
            is(mjOBJ_SITE, "leg", siteOnLeg(leg)) && is(mjOBJ_SITE, "platform", siteOnPlatform(legs, leg)) &&
-           hasJoints(model, leg, kinds[static_cast<std::size_t>(leg)]);
+           hasJoints(model, leg, kinds[leg]);
   }
   return good;
 }
@@ -144,8 +143,7 @@ void writeLeg(mjModel& model, int index, const Leg& leg, const Vector3d& origin)
   writeInertia(model, proximal, leg.proximal.mass, chain.centers[0], leg.proximal.inertia);
   writeInertia(model, distal, leg.distal.mass, chain.centers[1] + shift, leg.distal.inertia);
   for (int joint = 0; joint < joints_per_leg; ++joint)
-    model.dof_armature[dofOf(index, joint)] =
-        leg.rotor_inertia.on(rowOf(leg.kind).coordinates[static_cast<std::size_t>(joint)]);
+    model.dof_armature[dofOf(index, joint)] = leg.rotor_inertia.on(rowOf(leg.kind).coordinates[joint]);
   model.body_subtreemass[distal] = leg.distal.mass;
   model.body_subtreemass[proximal] = leg.proximal.mass + leg.distal.mass;
 }

@@ -20,7 +20,7 @@ std::string jointText(const MechanismJoint& joint, bool reversed, const Vector3d
   const int count = freedomsOf(joint.kind);
   std::string out;
   for (int k = 0; k < count; ++k) {
-    const Vector3d& axis = joint.axis[static_cast<std::size_t>(reversed ? count - 1 - k : k)];
+    const Vector3d& axis = joint.axis[reversed ? count - 1 - k : k];
     out +=
         fmt::format(R"(<joint type="{}" pos="{}" axis="{}"/>)", joint.slides() ? "slide" : "hinge", at, numbers(axis));
   }

@@ -90,7 +90,7 @@ const char* exactCall(const EngineResult& engine) {
 }
 
 std::string worstText(const RecipeResult& found, const SideBySide& in) {
-  const SideBySide::Motor& motor = in.motors.at(static_cast<std::size_t>(found.motor));
+  const SideBySide::Motor& motor = in.motors.at(found.motor);
   return fmt::format("{} by {} at {}", motor.name, quantity(found.deviation, motor.unit), quantity(found.at, "s"));
 }
 

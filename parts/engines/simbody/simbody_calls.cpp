@@ -23,9 +23,9 @@ void readGaps(const SimbodyLoop& loop, const Manipulator& manipulator, PlacedTre
   const Motion<double> platform = loop.platform();
   for (int i = 0; i < manipulator.legCount(); ++i) {
     const Leg& leg = manipulator.leg(i);
-    const BodyMotion<double>& distal = bodies[static_cast<std::size_t>(leg_count + i)];
+    const BodyMotion<double>& distal = bodies[leg_count + i];
     const Vector3d tip = distal.c + distal.R * (Vector3d(0, 0, leg.distal.length) - leg.distalCenter());
-    out.gaps[static_cast<std::size_t>(i)] = tip - platform.p - platform.Q * leg.platform_point;
+    out.gaps[i] = tip - platform.p - platform.Q * leg.platform_point;
   }
 }
 
@@ -89,11 +89,10 @@ class SimbodyCalls : public LoopEngine {
     Vector6d twist_rate;
     twist_rate << motion.omega_dot, motion.p_ddot;
     for (int i = 0; i < manipulator().legCount(); ++i) {
-      const OpenTree::Leg& leg = tree_.legs[static_cast<std::size_t>(i)];
+      const OpenTree::Leg& leg = tree_.legs[i];
       const Vector3d accelerations = leg.J.partialPivLu().solve(leg.P * twist_rate);
       for (int j = 0; j < 3; ++j)
-        joints.q_ddot.of(rowOf(manipulator().leg(i).kind).coordinates[static_cast<std::size_t>(j)])(i) =
-            accelerations(j);
+        joints.q_ddot.of(rowOf(manipulator().leg(i).kind).coordinates[j])(i) = accelerations(j);
     }
     ask(motion, joints);
     return tree_;

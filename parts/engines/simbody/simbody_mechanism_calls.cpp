@@ -25,7 +25,7 @@ class SimbodyMechanismCalls : public MechanismCalls {
     if (recipe != Recipe::open) throw std::domain_error("it has no inverse dynamics of closed loops");
     for (Eigen::Index k = 0; k < S.rows(); ++k)
       if ((S.row(k).array() != 0).count() != 1)
-        throw std::domain_error(mechanism_.motor(static_cast<std::size_t>(k)).name + " is no coordinate of its own");
+        throw std::domain_error(mechanism_.motor(k).name + " is no coordinate of its own");
     return S * f;
   }
 

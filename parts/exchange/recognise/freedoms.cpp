@@ -17,7 +17,7 @@ Eigen::MatrixXd freedomsOf(const GraphJoint& joint) {
     out.topRows<3>().setIdentity();
   else
     for (Eigen::Index k = 0; k < out.cols(); ++k)
-      out.block<3, 1>(joint.kind == JointKind::prismatic ? 3 : 0, k) = joint.axis[static_cast<std::size_t>(k)];
+      out.block<3, 1>(joint.kind == JointKind::prismatic ? 3 : 0, k) = joint.axis[k];
   return out;
 }
 

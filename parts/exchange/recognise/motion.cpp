@@ -81,8 +81,7 @@ Matrix6d driveMap(const ImportedMachine& machine, const Motion<double>& pose, do
     for (int k = 0; k < 3; ++k) tip.col(k) = size * Vector3d::Unit(k), tip.col(3 + k) = Vector3d::Unit(k).cross(arm);
     const Eigen::Matrix<double, 3, 6> rates = at.at.J.inverse() * tip;
     for (int k = 0; k < 3; ++k)
-      if (leg.actuated[static_cast<std::size_t>(k)] && row < 6)
-        out.row(row++) = rates.row(k) / (at.chain.slides(k) ? size : 1);
+      if (leg.actuated[k] && row < 6) out.row(row++) = rates.row(k) / (at.chain.slides(k) ? size : 1);
   }
   return out;
 }

@@ -60,14 +60,14 @@ class Builder {
     const LegPose at = legPose(leg, index, tip);
     const std::string name = fmt::format("leg_{}", index + 1);
     // The moment of a free rod about its line has no effect on efforts, so the machine leaves it out; a file has it.
-    const Leg& links = leg.spins ? machine_.given().legs[static_cast<std::size_t>(index)] : leg;
+    const Leg& links = leg.spins ? machine_.given().legs[index] : leg;
     std::size_t body = 0;
     for (int k = 0; k < 3; ++k) {
       const int link = at.chain.linkOf(k);
       const bool in_universal = !at.chain.movesLink(k), to_proximal = !in_universal && link == 0,
                  to_distal = !in_universal && link == 1;
       if (in_universal && leg.spins) continue;  // one ball instead of both hinges
-      const Eigen::Isometry3d& frame = at.at.links[static_cast<std::size_t>(link)];
+      const Eigen::Isometry3d& frame = at.at.links[link];
       const std::size_t next = to_proximal ? addLink(name + "_proximal", frame, links.proximal, leg.proximalCenter())
                                : to_distal ? addLink(name + "_distal", frame, links.distal, leg.distalCenter())
                                            : addBody(name + "_cross", frame, 0, {});
@@ -90,26 +90,23 @@ class Builder {
   }
 
   /// The first joint's is the base point, even if it slides.
-  static Vector3d centreOf(const LegPose& at, int k) {
-    return k == 0 ? at.chain.base_point : at.at.anchors[static_cast<std::size_t>(k)];
-  }
+  static Vector3d centreOf(const LegPose& at, int k) { return k == 0 ? at.chain.base_point : at.at.anchors[k]; }
 
   void addCoordinate(int index, int k, const LegPose& at, std::size_t parent, std::size_t child) {
     const Leg& leg = machine_.leg(index);
-    const auto joint_of_leg = static_cast<std::size_t>(k);
-    const Coordinate coordinate = at.chain.row.coordinates[joint_of_leg];
+    const Coordinate coordinate = at.chain.row.coordinates[k];
     GraphJoint joint;
     joint.name = fmt::format("leg_{}_{}", index + 1, nameOf(coordinate));
     joint.kind = slides(coordinate) ? JointKind::prismatic : JointKind::revolute;
     joint.parent = parent;
     joint.child = child;
     joint.centre = joint.centre_of_child = centreOf(at, k);
-    joint.axis[0] = at.at.axes[joint_of_leg];
+    joint.axis[0] = at.at.axes[k];
     joint.position = at.q(k);
     joint.damping = leg.friction.on(coordinate);
     joint.friction = leg.coulomb.on(coordinate);
     joint.smoothing_speed = joint.friction != 0 ? leg.coulomb.speedOf(coordinate) : 0;
-    joint.driven = leg.actuated[joint_of_leg];
+    joint.driven = leg.actuated[k];
     joint.rotor_inertia = leg.rotor_inertia.on(coordinate);
     if (at.chain.row.isTelescopic() && slides(coordinate)) {
       joint.lower = leg.distal.length;
@@ -192,7 +189,7 @@ std::vector<TreeBody> treeBodiesOf(const ModelGraph& graph) {
     do {
       const GraphJoint* joint = carrierOf(graph, tree_body.parent);
       if (joint == nullptr) break;
-      tree_body.joints.insert(tree_body.joints.begin(), static_cast<std::size_t>(joint - graph.joints.data()));
+      tree_body.joints.insert(tree_body.joints.begin(), joint - graph.joints.data());
       tree_body.parent = joint->parent;
     } while (!graph.bodies[tree_body.parent].fixed && graph.bodies[tree_body.parent].mass == 0);
     out.push_back(tree_body);

@@ -105,7 +105,7 @@ class UrdfWriter {
     constexpr std::array<const char*, 3> axes = {"_x", "_y", "_z"};
     std::string from = parent;
     for (int k = 0; k < 3; ++k) {
-      const std::string name = joint.name + axes[static_cast<std::size_t>(k)], to = k == 2 ? child : name + "_frame";
+      const std::string name = joint.name + axes[k], to = k == 2 ? child : name + "_frame";
       if (k < 2) addFrame(to);
       const Xml hinge = addJoint(name, "continuous", from, to, k == 0 ? origin : Eigen::Isometry3d::Identity());
       hinge.add("axis").with("xyz", Vector3d(Vector3d::Unit(k)));

@@ -58,7 +58,7 @@ OutputPlan::OutputPlan(bool validates, const std::vector<std::string>& names)
 std::size_t OutputPlan::groupOf(OutputKind kind, const std::string& unit) {
   const auto at = std::find_if(outputs_.begin(), outputs_.end(),
                                [&](const SweepOutput& each) { return each.kind == kind && each.unit == unit; });
-  if (at != outputs_.end()) return static_cast<std::size_t>(at - outputs_.begin());
+  if (at != outputs_.end()) return at - outputs_.begin();
   outputs_.push_back({kind, "", unit});
   return outputs_.size() - 1;
 }

@@ -236,7 +236,7 @@ std::vector<double> onGrid(const std::vector<double>& x_levels, const std::vecto
                            const std::vector<double>& values) {
   std::vector<double> out(x_levels.size() * y_levels.size(), std::numeric_limits<double>::quiet_NaN());
   const auto place = [](const std::vector<double>& levels, double value) {
-    return static_cast<std::size_t>(std::lower_bound(levels.begin(), levels.end(), value) - levels.begin());
+    return std::lower_bound(levels.begin(), levels.end(), value) - levels.begin();
   };
   for (std::size_t k = 0; k < values.size(); ++k)
     out[place(y_levels, y[k]) * x_levels.size() + place(x_levels, x[k])] = values[k];

@@ -132,7 +132,7 @@ void SweepRows::readParameters(SweepRow& row) const {
 }
 
 std::size_t SweepRows::indexOf(const std::string& name) const {
-  return static_cast<std::size_t>(std::lower_bound(names_.begin(), names_.end(), name) - names_.begin());
+  return std::lower_bound(names_.begin(), names_.end(), name) - names_.begin();
 }
 
 namespace {

@@ -60,7 +60,7 @@ class Summary {
       both.insert(both.end(), values.begin(), values.end());
       store_.addRow(both);
       ++out_.verdicts[row.verdict];
-      if (const int leg = plan_.refusedLeg(row); leg > 0) ++out_.refused_by_leg[static_cast<std::size_t>(leg - 1)];
+      if (const int leg = plan_.refusedLeg(row); leg > 0) ++out_.refused_by_leg[leg - 1];
       for (std::size_t k = 0; k < values.size(); ++k) {
         const double size = plan_.outputs()[k].kind == OutputKind::sine ? -values[k] : values[k];
         if (std::isfinite(size) && !(extremes[k] >= size)) extremes[k] = size, worst_ids_[k] = row.id;
@@ -176,7 +176,7 @@ class Summary {
   void choosePrimary() {
     const auto first = std::find_if(out_.outputs.begin(), out_.outputs.end(),
                                     [](const SweepOutput& each) { return each.kind != OutputKind::not_passed; });
-    out_.primary = static_cast<std::size_t>(first - out_.outputs.begin());
+    out_.primary = first - out_.outputs.begin();
     if (first == out_.outputs.end()) out_.primary = out_.outputs.size();
     double nearest = -1;
     for (std::size_t k = 0; k < out_.outputs.size(); ++k)
