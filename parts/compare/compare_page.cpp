@@ -61,9 +61,9 @@ std::string shareText(const ChannelComparison& channel) {
   if (std::isnan(share)) return "is not a number somewhere";
   if (std::isinf(share)) return "differs, with a tolerance of 0";
   if (share > 1)
-    return fmt::format("is off by {}, {} of the largest; its tolerance is {}",
-                       quantity(channel.max_error, unitOf(channel.name)), sizeText(channel.max_error / channel.scale),
-                       quantity(channel.tolerance, unitOf(channel.name)));
+    return fmt::format("is off by {} at t = {:.6g} s, {} of the largest; its tolerance is {}",
+                       quantity(channel.max_error, unitOf(channel.name)), channel.max_at,
+                       sizeText(channel.max_error / channel.scale), quantity(channel.tolerance, unitOf(channel.name)));
   return fmt::format("is at {} of its tolerance", report::plainNumber(share, 2));
 }
 
@@ -163,8 +163,8 @@ std::string comparisonSentence(const Comparison& c) {
   const std::string words = channelWords(worst.name);
   const std::string of = fmt::format("of {} channels at {} instants", c.channels.size(), c.instants);
   if (worst.verdict == Verdict::fail)
-    return report::unbroken(fmt::format("The test differs from the reference in {} {}. The {} {}, at t = {:.6g} s.",
-                                        countOf(c, Verdict::fail), of, words, shareText(worst), worst.max_at));
+    return report::unbroken(fmt::format("The test differs from the reference in {} {}. The {} {}.",
+                                        countOf(c, Verdict::fail), of, words, shareText(worst)));
   if (worst.verdict == Verdict::inconclusive)
     return fmt::format("Nothing surely differs, but {} {} cannot be judged.", countOf(c, Verdict::inconclusive), of);
   if (worst.max_error == 0)

@@ -22,7 +22,13 @@ constexpr std::array<std::array<const char*, 2>, 6> verdict_words = {{{"pass", "
 
 std::string percent(double share) {
   const double hundredths = 100 * share;
-  return hundredths > 99.5 && hundredths < 100 ? "> 99 %" : fmt::format("{:.0f} %", hundredths);
+  return hundredths > 99.5 && hundredths < 100 ? "> 99\u00a0%" : fmt::format("{:.0f}\u00a0%", hundredths);
+}
+
+/// The number in words without its unit, for a sentence.
+std::string bareWords(const std::string& key) {
+  const std::string words = keyWords(key);
+  return words.substr(0, words.rfind(" ("));
 }
 
 /// The motor and point of a group's largest value, or only the point.
@@ -147,9 +153,9 @@ std::string drivenBy(const SweepSummary& summary, const SweepOutput& output) {
                                              : "not related to any number more than by chance";
   const Relation& relation = output.relations[p];
   if (relation.acts)
-    return fmt::format("driven by {}, which alone makes {} of its variance", keyWords(summary.parameters[p].key),
+    return fmt::format("driven by {}, which alone makes {} of its variance", bareWords(summary.parameters[p].key),
                        percent(relation.first_order));
-  return fmt::format("tied most to {}, by a rank correlation of {}", keyWords(summary.parameters[p].key),
+  return fmt::format("tied most to {}, by a rank correlation of {}", bareWords(summary.parameters[p].key),
                      signedNumber(relation.spearman));
 }
 
