@@ -135,7 +135,8 @@ py::dict mapped(const ScenarioWithSolver& self, const py::object& x, const py::o
   try {
     for (std::size_t k = 0; k < grid_axes; ++k) axes[k] = axisOf(grid_axis_names[k], given[k]);
     const PoseGrid grid(self.scenario, axes, at);
-    return columnsOf(mapBlocks(self.scenario, grid, nullptr),
+    DrawnMap drawn;
+    return columnsOf(mapBlocks(self.scenario, grid, drawn),
                      jobs > 0 ? jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
   } catch (const GridError& error) {
     throw py::value_error(std::regex_replace(error.what(), std::regex("FROM,TO,COUNT"), "(from, to, count)"));

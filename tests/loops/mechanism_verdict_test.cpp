@@ -229,6 +229,7 @@ TEST(MechanismCover, ofAPartOfTheMotionIsInconclusive) {
     EXPECT_EQ(judged(scenario, rowsOf(all, 0, 99)).verdict, Verdict::pass) << "the last row is one step early";
     EXPECT_EQ(judged(scenario, rowsOf(all, 0, 100, 5)).verdict, Verdict::pass) << "21 rows";
   }
+}
 
 /// Friction of passive joints is in the model and not in the efforts: the scenario can leave it out.
 TEST(MechanismSize, namesWhatTheScenarioCanLeaveOut) {

@@ -46,7 +46,7 @@ std::shared_ptr<const Manipulator> idealised(Parameters machine, const FrameChan
   for (const Idealisation* way : ways)
     for (Leg& leg : machine.legs) way->apply(leg);
   try {
-    return std::make_shared<const Manipulator>(natural.of(Manipulator(machine)));
+    return std::make_shared<const Manipulator>(natural.transformed(Manipulator(machine)));
   } catch (const InvalidParameter&) {
     return nullptr;
   }
