@@ -70,7 +70,8 @@ TEST_F(ReportFiles, ofASuiteAreIndexAndJunit) {
   EXPECT_NE(index.find("href=\"sub%20folder/%C3%A4%26b/report.html\""), std::string::npos);
   EXPECT_NE(index.find("1 of 1 scenario passed"), std::string::npos);
   EXPECT_NE(index.find("Position along the motion"), std::string::npos);  // the check closest to its limit
-  EXPECT_NE(index.find("<td data-label=\"Dominant error\">amplification</td>"), std::string::npos);     // the dominant error
+  EXPECT_NE(index.find("<td data-label=\"Dominant error\">amplification</td>"),
+            std::string::npos);  // the dominant error
   const ptree suite = parsedXml(contentOf(dir_ / "junit.xml")).get_child("testsuites.testsuite.<xmlattr>");
   EXPECT_EQ(suite.get<std::string>("name"), "paper-helix");
   EXPECT_EQ(suite.count("time"), 0u) << "nobody measured it";

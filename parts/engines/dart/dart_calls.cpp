@@ -70,10 +70,9 @@ class DartCalls : public LoopEngine {
       const auto& coordinates = rowOf(manipulator().leg(i).kind).coordinates;
       for (int j = 0; j < 3; ++j) {
         const auto [joint, which] = machine_.legs[index].place(j);
-        tree_.legs[index].force(j) =
-            joint->getForce(which) - acts(j) +
-            manipulator().leg(i).rotor_inertia.on(coordinates[static_cast<std::size_t>(j)]) *
-                joint->getAcceleration(which);
+        tree_.legs[index].force(j) = joint->getForce(which) - acts(j) +
+                                     manipulator().leg(i).rotor_inertia.on(coordinates[static_cast<std::size_t>(j)]) *
+                                         joint->getAcceleration(which);
       }
     }
     const Vector6d load = loadInBase(load_.get(), motion.t, motion.Q);
