@@ -214,7 +214,7 @@ TEST_F(Identify, summaryAndScenarioReadBack) {
   const auto json = nlohmann::json::parse(identifySummary(result));
   EXPECT_EQ(json["motors"].size(), 6U);
   EXPECT_GT(json["combinations"].size(), 20U);
-  EXPECT_THAT(identifyPage(result), HasSubstr("Effort of motor 1"));
+  EXPECT_THAT(identifyPage(result), HasSubstr("Torque of motor 1"));
   const Scenario again = parseScenario(result.identified_scenario, "identified.toml");
   EXPECT_NEAR(again.manipulator->platform().mass, 500, 5);
   EXPECT_FALSE(statedTolerances(again).empty());
