@@ -96,7 +96,6 @@ std::string withDeviation(double value, double deviation, double scale) {
   if (deviation == 0) return fmt::format("{:.9g}", value);
   if (!(deviation > most_digits * size && std::isfinite(deviation)))
     return fmt::format("{:.9g} +- {:.1g}", value, deviation);
-  if (size <= deviation) return fmt::format("0 +- {:.1g}", deviation);
   const int place = static_cast<int>(std::floor(std::log10(deviation)));
   return fmt::format("{:.{}f} +- {:.1g}", value, std::clamp(-place, 0, 15), deviation);
 }

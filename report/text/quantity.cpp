@@ -112,12 +112,18 @@ std::string unbroken(const std::string& text) {
   for (const auto& [from, to] : {std::pair("^2", "²"), {" +- ", " ± "}, {"N m", "N·m"}})
     plain = replaced(plain, from, to);
   plain = std::regex_replace(plain, minus, "$1−");
-  std::string out, last;
+  const auto isKey = [](const std::string& word) {
+    return word.find_first_of("._]") != std::string::npos || word.size() > 3;
+  };
+  std::string out, last, before;
   for (std::size_t from = 0; from <= plain.size();) {
     const std::size_t to = std::min(plain.find(' ', from), plain.size());
     const std::string word = plain.substr(from, to - from);
-    const bool together = (endsInDigit(last) && isUnit(word)) || isSign(word) || isSign(last);
+    // A key and its value are copied into a scenario, where only plain spaces are allowed.
+    const bool assigns = (word == "=" && isKey(last)) || (last == "=" && isKey(before));
+    const bool together = !assigns && ((endsInDigit(last) && isUnit(word)) || isSign(word) || isSign(last));
     out += (from == 0 ? "" : together ? joined : " ") + word;
+    before = last;
     last = word;
     from = to + 1;
   }
