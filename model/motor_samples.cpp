@@ -1,0 +1,168 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "base/csv.h"
+#include "base/csv_dialect.h"
+#include "base/csv_digits.h"
+#include "base/errors.h"
+#include "model/mechanism_scenario.h"
+
+namespace ursula {
+namespace {
+
+/// Returns the same table in s, rad and m, by columns in ms, us, degrees and mm.
+CsvTable inSi(CsvTable table) {
+  const std::tuple<const char*, const char*, double> units[] = {
+      {"_ms", "_s", 1e-3}, {"_us", "_s", 1e-6}, {"_deg", "_rad", degree}, {"_mm", "_m", 1e-3}};
+  for (std::size_t c = 0; c < table.names.size(); ++c)
+    for (const auto& [from, to, factor] : units) {
+      std::string& name = table.names[c];
+      const std::size_t at = name.find(from);
+      const bool of_time = std::string(to) == "_s";
+      if (at == std::string::npos || (of_time && name != std::string("t") + from)) continue;
+      const std::size_t end = at + std::string(from).size();
+      if (end < name.size() && name.compare(end, 2, "_s") != 0) continue;
+      const std::string si = name.substr(0, at) + to + name.substr(end);
+      if (table.find(si) != nullptr) continue;
+      name = si;
+      for (double& value : table.columns[c]) value *= factor;
+      break;
+    }
+  return table;
+}
+
+/// Returns the column of one quantity of motor k, by number or by the joint's own name; null if there is none.
+const std::vector<double>* columnOf(const CsvTable& table, const Mechanism& mechanism, std::size_t k, const char* of) {
+  const std::string named = motorColumn(mechanism, k, of);
+  if (const auto* found = table.find(named)) return found;
+  const std::string number = std::to_string(k + 1);
+  const std::string unit = named.substr(named.find('_' + number + '_') + number.size() + 1);
+  const std::string joint = mechanism.motor(k).name;
+  return table.find(std::string(of) == "q" ? joint + unit : fmt::format("{}_{}{}", of, joint, unit));
+}
+
+/// Half a unit of the last printed digit of each column, in the units of `si`.
+std::vector<double> halfDigitsOf(const CsvTable& printed, const CsvTable& si) {
+  std::vector<double> out;
+  for (std::size_t c = 0; c < printed.names.size(); ++c) {
+    const std::vector<double>& values = printed.columns[c];
+    const auto some = std::find_if(values.begin(), values.end(), [](double value) { return value != 0; });
+    const double unit = some == values.end() ? 1 : si.columns[c][some - values.begin()] / *some;
+    out.push_back(unit * halfDigit(printed, printed.names[c]));
+  }
+  return out;
+}
+
+/// Refuses derivatives that contradict what they belong to. Between two instants the mean slope is a derivative's value
+/// there; it lies within the range of the nearest four derivatives, as far as that range goes on either side.
+class Derivatives {
+ public:
+  Derivatives(const CsvTable& table, const std::vector<double>& half) : table_(table), half_(half) {
+    const auto [least, most] = spacing();
+    // Evenly spaced instants are exact, however few digits they have.
+    stamps_ = std::min(2 * half_[indexOf(t_)], most - least);
+  }
+
+  /// Throws CsvError with the row.
+  void require(const std::vector<double>& values, const std::vector<double>& rates) const {
+    if (t_.size() < 4) return;
+    double most = 0;
+    for (const double each : values) most = std::max(most, std::abs(each));
+    for (std::size_t i = 0; i + 1 < t_.size(); ++i) {
+      const auto first = rates.begin() + static_cast<std::ptrdiff_t>(std::min(i == 0 ? 0 : i - 1, t_.size() - 4));
+      const auto [low, high] = std::minmax_element(first, first + 4);
+      const double h = t_[i + 1] - t_[i], slope = (values[i + 1] - values[i]) / h;
+      const double rounding = 2 * half_[indexOf(values)] + stamps_ * std::abs(slope) + 1e-15 * most;
+      const double slack = *high - *low + half_[indexOf(rates)] + rounding / h + 1e-12 * std::abs(slope);
+      if (h > 0 && !(slope >= *low - slack && slope <= *high + slack)) refuse(values, rates, i, slope);
+    }
+  }
+
+ private:
+  std::size_t indexOf(const std::vector<double>& column) const { return &column - table_.columns.data(); }
+  const std::string& nameOf(const std::vector<double>& column) const { return table_.names[indexOf(column)]; }
+
+  std::pair<double, double> spacing() const {
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (std::size_t i = 0; i + 1 < t_.size(); ++i) {
+      least = std::min(least, t_[i + 1] - t_[i]);
+      most = std::max(most, t_[i + 1] - t_[i]);
+    }
+    return {std::min(least, most), most};
+  }
+
+  [[noreturn]] void refuse(const std::vector<double>& values, const std::vector<double>& rates, std::size_t i,
+                           double slope) const {
+    throw CsvError(
+        fmt::format("{}: error: {} is {:.6g} at t = {:.6g} s, but {} changes by {:.6g} a second from there to the next "
+                    "row, expected its derivative; without the column it is taken from {}",
+                    table_.place(i), nameOf(rates), rates[i], t_[i], nameOf(values), slope, nameOf(values)));
+  }
+
+  const CsvTable& table_;
+  const std::vector<double>& half_;
+  const std::vector<double>& t_ = table_.at("t_s");
+  double stamps_ = 0;  ///< by which two instants may be nearer or farther than printed, s
+};
+
+/// Throws CsvError if rates or accelerations of a motor are no derivatives.
+void requireDerivatives(const CsvTable& table, const Mechanism& mechanism, const std::vector<double>& half) {
+  const Derivatives derivatives(table, half);
+  for (std::size_t k = 0; k < mechanism.motorCount(); ++k)
+    for (const auto& [of, by] : {std::pair("q", "qdot"), {"qdot", "qddot"}}) {
+      const std::vector<double>*values = columnOf(table, mechanism, k, of), *rates = columnOf(table, mechanism, k, by);
+      if (values != nullptr && rates != nullptr) derivatives.require(*values, *rates);
+    }
+}
+
+}  // namespace
+
+MotorSamples readMotorSamples(const std::filesystem::path& file, const Mechanism& mechanism) {
+  const std::string text = readCsvText(file);
+  CsvOptions options;
+  options.dialect = guessDialect(text, file);
+  const CsvTable printed = parseCsv(text, file, options), read = inSi(printed);
+  const std::vector<double> half = halfDigitsOf(printed, read);
+  const Eigen::MatrixXd rates = motorColumns(read, mechanism, "qdot", false);
+  const Eigen::MatrixXd accelerations = motorColumns(read, mechanism, "qddot", false);
+  MotorSamples out;
+  out.t = read.at("t_s");
+  for (std::size_t k = 0; k < mechanism.motorCount(); ++k)
+    if (const auto* column = columnOf(read, mechanism, k, "q"))
+      out.quantum = std::max(out.quantum, half[column - read.columns.data()]);
+  requireDerivatives(read, mechanism, half);
+  try {
+    out.trajectory = makeMotorSamples(out.t, motorColumns(read, mechanism, "q", true), rates, accelerations);
+    return out;
+  } catch (const InvalidParameter& refusal) {
+    throw CsvError(fmt::format("{}: error: {}: {}, expected {}", file.string(), refusal.place(), refusal.value(),
+                               refusal.bound()));
+  }
+}
+
+Eigen::MatrixXd motorColumns(const CsvTable& table, const Mechanism& mechanism, const char* of, bool required) {
+  Eigen::MatrixXd out;
+  const auto n = static_cast<Eigen::Index>(mechanism.motorCount());
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const std::vector<double>* column = columnOf(table, mechanism, k, of);
+    if (column == nullptr && !required && k == 0) return out;
+    if (column == nullptr) column = &table.at(motorColumn(mechanism, k, of));
+    if (k == 0) out.resize(static_cast<Eigen::Index>(column->size()), n);
+    out.col(k) = Eigen::Map<const Eigen::VectorXd>(column->data(), static_cast<Eigen::Index>(column->size()));
+  }
+  return out;
+}
+
+std::string motorColumn(const Mechanism& mechanism, std::size_t k, const char* quantity) {
+  const bool slides = mechanism.motor(k).slides();
+  const std::string of = quantity;
+  if (of == "tau") return fmt::format("tau_{}_{}", k + 1, mechanism.effortUnit(k));
+  const char* power = of == "q" ? "" : of == "qdot" ? "_s" : "_s2";
+  return fmt::format("{}_{}_{}{}", of, k + 1, slides ? "m" : "rad", power);
+}
+
+}  // namespace ursula
