@@ -7,6 +7,7 @@
 #include "python/archive.h"
 #include "python/bindings.h"
 #include "python/mechanism.h"
+#include "python/motion.h"
 #include "python/words.h"
 
 namespace ursula::python {
@@ -14,14 +15,6 @@ namespace py = pybind11;
 namespace {
 
 using Rows = MechanismMotion::Rows;
-
-/// A view of a column-strided block; it keeps `self` alive and is read-only.
-py::array view(const py::object& self, const double* first, std::vector<py::ssize_t> shape,
-               std::vector<py::ssize_t> strides) {
-  py::array out(py::dtype::of<double>(), std::move(shape), std::move(strides), first, self);
-  py::detail::array_proxy(out.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
-  return out;
-}
 
 constexpr py::ssize_t size = sizeof(double);
 
@@ -57,13 +50,13 @@ MechanismMotion chosen(const MechanismMotion& motion, const std::vector<Eigen::I
   return out;
 }
 
-MechanismMotion row(const MechanismMotion& motion, py::ssize_t k) {
+MechanismMotion instantOf(const MechanismMotion& motion, py::ssize_t k) {
   const py::ssize_t count = motion.t.size();
   if (k < -count || k >= count) throw py::index_error("no such row of the motion");
   return chosen(motion, {k < 0 ? k + count : k});
 }
 
-MechanismMotion slice(const MechanismMotion& motion, const py::slice& which) {
+MechanismMotion sliceOf(const MechanismMotion& motion, const py::slice& which) {
   std::size_t start = 0, stop = 0, step = 0, count = 0;
   if (!which.compute(motion.t.size(), &start, &stop, &step, &count)) throw py::error_already_set();
   std::vector<Eigen::Index> rows;
@@ -140,8 +133,8 @@ void addMechanismMotion(py::module_& module) {
       .def_property_readonly("joint_accelerations", columns(&M::joint_accelerations),
                              "Their accelerations, by the same names: each (N,).")
       .def("__len__", [](const M& motion) { return motion.t.size(); })
-      .def("__getitem__", &row, py::arg("row"))
-      .def("__getitem__", &slice, py::arg("rows"))
+      .def("__getitem__", &instantOf, py::arg("row"))
+      .def("__getitem__", &sliceOf, py::arg("rows"))
       .def("__repr__", [](const M& motion) {
         const Eigen::Index count = motion.t.size();
         return "<ursula.MechanismMotion of " + std::to_string(count) + (count == 1 ? " instant>" : " instants>");

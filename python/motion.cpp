@@ -53,17 +53,6 @@ Array numbers(const py::object& values, const char* what) {
 
 std::string shapeOf(const py::array& array) { return py::str(array.attr("shape")); }
 
-/// A view of the entries in all rows; `first` points to those of row 0. It keeps `self` alive and is read-only.
-py::array view(const py::object& self, const double* first, std::vector<py::ssize_t> shape,
-               std::vector<py::ssize_t> strides) {
-  const auto& rows = self.cast<const Motions&>().rows;
-  shape.insert(shape.begin(), static_cast<py::ssize_t>(rows.size()));
-  strides.insert(strides.begin(), sizeof(Motion<double>));
-  py::array out(py::dtype::of<double>(), shape, strides, first, self);
-  py::detail::array_proxy(out.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
-  return out;
-}
-
 const double* dataOf(const double& value) { return &value; }
 template <class Matrix>
 const double* dataOf(const Matrix& value) {
@@ -75,7 +64,10 @@ auto member(Member Motion<double>::*which, std::vector<py::ssize_t> shape, std::
   return [=](const py::object& self) {
     static const Motion<double> none;
     const auto& rows = self.cast<const Motions&>().rows;
-    return view(self, dataOf((rows.empty() ? none : rows.front()).*which), shape, strides);
+    std::vector<py::ssize_t> all = {static_cast<py::ssize_t>(rows.size())}, steps = {sizeof(Motion<double>)};
+    all.insert(all.end(), shape.begin(), shape.end());
+    steps.insert(steps.end(), strides.begin(), strides.end());
+    return view(self, dataOf((rows.empty() ? none : rows.front()).*which), std::move(all), std::move(steps));
   };
 }
 
@@ -132,6 +124,13 @@ Motions slice(const Motions& motion, const py::slice& which) {
 }
 
 }  // namespace
+
+py::array view(const py::object& self, const double* first, std::vector<py::ssize_t> shape,
+               std::vector<py::ssize_t> strides) {
+  py::array out(py::dtype::of<double>(), std::move(shape), std::move(strides), first, self);
+  py::detail::array_proxy(out.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return out;
+}
 
 py::array numbersIn(const py::object& values, const std::string& what) {
   if (isMasked(values)) throw py::value_error(what + " (found a masked array)");

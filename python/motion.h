@@ -25,6 +25,10 @@ class pybind11::detail::type_caster<ursula::python::Motions>
 
 namespace ursula::python {
 
+/// A read-only view of the numbers from `first` on, in bytes of strides; it keeps `self`, which has them, alive.
+pybind11::array view(const pybind11::object& self, const double* first, std::vector<pybind11::ssize_t> shape,
+                     std::vector<pybind11::ssize_t> strides);
+
 /// Converts `values` to an array of integers or floats, without a copy if they are one. Throws ValueError that begins
 /// with `what` for text, dates, complex numbers, objects, and masked arrays, because masks would be ignored. NumPy's
 /// own errors pass unchanged.
