@@ -2,6 +2,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "simbody/simbody_mechanism.h"
@@ -34,7 +35,7 @@ class Replayer {
     boost::numeric::odeint::runge_kutta_fehlberg78<State> stepper;
     const double h = (end - start.t) / steps;
     const auto system = [&](const State& at, State& rate, double t) {
-      simbody_.derivative(t, at.data(), efforts_(t) + more, rate.data());
+      simbody_.derivative(t, at.data(), effortsAt(t) + more, rate.data());
     };
     for (int k = 0; k < steps; ++k) {
       deadline_.require();
@@ -45,9 +46,17 @@ class Replayer {
   }
 
  private:
+  /// Stages and runs share instants.
+  const MotorEfforts& effortsAt(double t) {
+    const auto [at, is_new] = known_.try_emplace(t);
+    if (is_new) at->second = efforts_(t);
+    return at->second;
+  }
+
   SimbodyMechanism simbody_;
   std::size_t output_;
   std::function<MotorEfforts(double)> efforts_;
+  std::map<double, MotorEfforts> known_;
   Deadline deadline_;
 };
 
