@@ -123,7 +123,8 @@ void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const
     const MotorEfforts none = MotorEfforts::Zero(noise.size());
     const End coarse = replayer.run(start, window.end, steps, none),
               fine = replayer.run(start, window.end, 2 * steps, none);
-    const End noisy = replayer.run(start, window.end, 2 * steps, noise);
+    // Where half the step changes more than the efforts' rounding does, order_gain has it.
+    const End noisy = replayer.run(start, window.end, steps, noise);
     static_cast<void>(evidence.motion->inverseDynamics(window.end, work));
     const Eigen::Isometry3d wanted = work.bodies[mechanism.output()].displacement;
     const auto apart = [&](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
@@ -133,9 +134,9 @@ void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const
     window.orientation = turnBetween(fine.output, wanted);
     window.order_gain = apart(fine.output, coarse.output);
     const double floor = evidence.level * rounding * sample.condition * sample.condition;
-    window.position_limit = allowance * (window.order_gain + apart(noisy.output, fine.output) + floor * length);
+    window.position_limit = allowance * (window.order_gain + apart(noisy.output, coarse.output) + floor * length);
     window.orientation_limit =
-        allowance * (turnBetween(fine.output, coarse.output) + turnBetween(noisy.output, fine.output) + floor);
+        allowance * (turnBetween(fine.output, coarse.output) + turnBetween(noisy.output, coarse.output) + floor);
     window.closure_position = fine.closure.position;
     window.closure_velocity = fine.closure.velocity;
     const double own_steps = (std::abs(fine.closure.position - coarse.closure.position));
