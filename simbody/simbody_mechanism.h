@@ -64,6 +64,8 @@ class SimbodyMechanism {
   std::vector<BodyState> bodies() const;
   Closure closure() const;
   Energy energy() const;
+  /// Returns the power that damping and friction take, W.
+  double losses() const;
   Eigen::VectorXd motorCoordinates() const;
   Eigen::VectorXd motorRates() const;
 

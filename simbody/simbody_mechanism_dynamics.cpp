@@ -186,4 +186,16 @@ SimbodyMechanism::Energy SimbodyMechanism::energy() const {
   return out;
 }
 
+double SimbodyMechanism::losses() const {
+  impl_->realize(SimTK::Stage::Velocity);
+  double out = 0;
+  for (const CoordinateInSimbody& c : impl_->coordinates) {
+    const MechanismJoint& joint = impl_->jointOf(c);
+    const double rate = impl_->rate(c);
+    out += joint.damping * rate * rate;
+    if (joint.friction != 0) out += joint.friction * std::tanh(rate / joint.smoothing()) * rate;
+  }
+  return out;
+}
+
 }  // namespace ursula
