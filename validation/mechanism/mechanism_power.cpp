@@ -86,10 +86,10 @@ std::optional<MechanismPower> powerAt(SimbodyMechanism& simbody, const Mechanism
 }  // namespace
 
 std::vector<MechanismPower> powersOf(const MechanismEvidence& evidence, const Deadline& deadline) {
-  constexpr std::size_t most = 24;  // each instant takes 16 placements or more
+  constexpr std::size_t instants = 12;  // each takes 16 placements or more
   std::vector<MechanismPower> out;
   SimbodyMechanism simbody(*evidence.scenario->mechanism);
-  const std::size_t count = evidence.samples.size(), step = std::max<std::size_t>(1, count / most);
+  const std::size_t count = evidence.samples.size(), step = std::max<std::size_t>(1, count / instants);
   for (std::size_t i = 0; i < count; i += step) {
     deadline.require();
     if (const auto power = powerAt(simbody, evidence.samples[i], evidence)) out.push_back(*power);
