@@ -232,6 +232,13 @@ std::vector<CheckRow> checksOfReplay() {
        "One rounding per step, plus the loop forces' work on the largest allowed gap, plus three times a coarser "
        "replay's error.",
        "A power is missing or has the wrong sign: the balance lacks friction or a load that the engine has."},
+      {"energy.power", "W", N::model_file, G::motors, "Simbody", "Power of the motors",
+       "The motors' power is the rate of Simbody's kinetic and potential energy, springs included, and the losses by "
+       "damping and friction.",
+       "errors that do no work, and a machine at rest", LimitFrom::derived,
+       "The efforts' limits times the rates, rounding of the energies over the step of their differences, and what "
+       "half the step changes of these.",
+       "Look at what stores or takes energy: masses, inertias, rotors, springs, gravity, friction."},
       {"integration.ladder", "m", N::any_instant, G::numerics, "Simbody", "Finer steps, same motion",
        "The replay converges as its tolerance is tightened step by step.", "", LimitFrom::measured,
        "The largest of: a quarter of the error at 100 times the tolerance, rounding's effect, 1 % of a useful limit.",

@@ -86,7 +86,7 @@ void SimbodyMechanism::setState(double t, const double* y) {
 
 void SimbodyMechanism::derivative(double t, const double* y, const Eigen::VectorXd& efforts, double* y_dot) {
   setState(t, y);
-  accelerations(efforts);
+  impl_->u_dot = impl_->simbodys_own ? impl_->byMultipliers(efforts) : impl_->eliminated(efforts);
   const SimTK::Vector& q_dot = impl_->state.getQDot();
   for (int i = 0; i < q_dot.size(); ++i) y_dot[i] = q_dot[i];
   for (int i = 0; i < impl_->u_dot.size(); ++i) y_dot[q_dot.size() + i] = impl_->u_dot[i];

@@ -64,6 +64,8 @@ class SimbodyMechanism {
   std::vector<BodyState> bodies() const;
   Closure closure() const;
   Energy energy() const;
+  /// Returns the power that damping and friction take, W.
+  double losses() const;
   Eigen::VectorXd motorCoordinates() const;
   Eigen::VectorXd motorRates() const;
 
@@ -95,7 +97,8 @@ class SimbodyMechanism {
   std::vector<double> state() const;
   /// Sets time and state.
   void setState(double t, const double* y);
-  /// Computes ẏ at (t, y) under `efforts`.
+  /// Computes ẏ at (t, y) under `efforts`: where Simbody's own accelerations serve, with its M⁻¹ and the same
+  /// multipliers by fewer sweeps of the tree.
   void derivative(double t, const double* y, const Eigen::VectorXd& efforts, double* y_dot);
   /// Moves the state onto the closures by least movement, positions and rates. Throws std::domain_error if it cannot.
   void project();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -186,6 +187,32 @@ void SimbodyMechanism::Impl::addScales() {
   }
 }
 
+/// A coordinate moves the rows of every constraint on a body that it carries.
+void SimbodyMechanism::Impl::addSweeps() {
+  moves.setConstant(state.getNMultipliers(), state.getNU(), false);
+  for (const CutRows& cut : cut_rows) {
+    int count = 0, of_velocity = 0, of_acceleration = 0;
+    SimTK::MultiplierIndex first, unused, none;
+    cut.constraint.getNumConstraintEquationsInUse(state, count, of_velocity, of_acceleration);
+    cut.constraint.getIndexOfMultipliersInUse(state, first, unused, none);
+    for (SimTK::ConstrainedBodyIndex c(0); c < cut.constraint.getNumConstrainedBodies(); ++c)
+      for (SimTK::MobilizedBody at = cut.constraint.getMobilizedBodyFromConstrainedBody(c); !at.isGround();
+           at = at.getParentMobilizedBody())
+        if (const int n = at.getNumU(state); n > 0)
+          moves.block(static_cast<int>(first), static_cast<int>(at.getFirstUIndex(state)), count, n) = true;
+  }
+  for (int j = 0; j < state.getNU(); ++j) {
+    const auto apart = [&](const std::vector<int>& sweep) {
+      return std::none_of(sweep.begin(), sweep.end(), [&](int k) { return (moves.col(j) && moves.col(k)).any(); });
+    };
+    const auto to = std::find_if(sweeps.begin(), sweeps.end(), apart);
+    if (to == sweeps.end())
+      sweeps.push_back({j});
+    else
+      to->push_back(j);
+  }
+}
+
 SimbodyMechanism::Impl::Impl(const Mechanism& of, Tree kind)
     : matter(system),
       forces(system),
@@ -205,6 +232,7 @@ SimbodyMechanism::Impl::Impl(const Mechanism& of, Tree kind)
   u_dot = SimTK::Vector(state.getNU(), 0.0);
   system.realize(state, SimTK::Stage::Instance);
   addScales();
+  addSweeps();
   addCoordinates();
   close();
   simbodys_own = spins.empty() && simbodyAgrees();

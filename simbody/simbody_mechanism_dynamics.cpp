@@ -3,6 +3,7 @@
 //   [M + A, Gᵀ; G, 0] [u̇; λ] = [forces; −bias]
 // with Simbody's M and G, the rotors' inertias A, and as many rows of G as are independent.
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
 
@@ -104,6 +105,36 @@ SimTK::Vector SimbodyMechanism::Impl::byRealizing(const Eigen::VectorXd& efforts
   return state.getUDot();
 }
 
+// With the accelerations u̇₀ = M⁻¹ f of the open tree, the multipliers follow from (G M⁻¹ Gᵀ) λ = −(G u̇₀ + bias).
+SimTK::Vector SimbodyMechanism::Impl::byMultipliers(const Eigen::VectorXd& efforts) const {
+  realize(SimTK::Stage::Velocity);
+  const int nu = state.getNU();
+  SimTK::Vector force(nu), found;
+  const auto byInertia = [&](const Eigen::VectorXd& f) -> Eigen::VectorXd {
+    for (int i = 0; i < nu; ++i) force[i] = f(i);
+    matter.multiplyByMInv(state, force, found);
+    return mapped(found);
+  };
+  const Eigen::MatrixXd scaled = closureRows();
+  const Eigen::VectorXi independent = LeastSquares(scaled.transpose()).independentColumns();
+  const Eigen::VectorXd bias = closureBias();
+  Eigen::VectorXd u_dot_now = byInertia(-residual(SimTK::Vector(nu, 0.0), loads(&efforts)));
+  const Eigen::Index m = independent.size();
+  Eigen::MatrixXd G(m, nu), per_multiplier(nu, m);
+  Eigen::VectorXd along(m);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    G.row(i) = scaled.row(independent(i)).cwiseQuotient(column_scale.transpose());
+    per_multiplier.col(i) = byInertia(G.row(i));
+    along(i) = bias(independent(i));
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factors(G * per_multiplier);
+  for (int pass = 0; pass < 2; ++pass)  // the second takes the first one's rounding away
+    u_dot_now -= per_multiplier * factors.solve(G * u_dot_now + along);
+  SimTK::Vector out(nu);
+  for (int i = 0; i < nu; ++i) out[i] = u_dot_now(i);
+  return out;
+}
+
 /// Simbody's own accelerations fail for tips without inertia, and lack the rotors.
 bool SimbodyMechanism::Impl::simbodyAgrees() try {
   for (const CoordinateInSimbody& c : coordinates)
@@ -151,6 +182,18 @@ SimbodyMechanism::Energy SimbodyMechanism::energy() const {
     const MechanismJoint& joint = m.jointOf(c);
     if (joint.rotor_inertia != 0) out.kinetic += joint.rotor_inertia * std::pow(m.rate(c), 2) / 2;
     if (joint.stiffness != 0) out.potential += joint.stiffness * std::pow(m.value(c) - joint.spring_reference, 2) / 2;
+  }
+  return out;
+}
+
+double SimbodyMechanism::losses() const {
+  impl_->realize(SimTK::Stage::Velocity);
+  double out = 0;
+  for (const CoordinateInSimbody& c : impl_->coordinates) {
+    const MechanismJoint& joint = impl_->jointOf(c);
+    const double rate = impl_->rate(c);
+    out += joint.damping * rate * rate;
+    if (joint.friction != 0) out += joint.friction * std::tanh(rate / joint.smoothing()) * rate;
   }
   return out;
 }

@@ -99,6 +99,9 @@ struct SimbodyMechanism::Impl {
   /// The machine's length where rows and coordinates are lengths, else 1: rows are divided, columns multiplied.
   Eigen::VectorXd row_scale, column_scale;
   std::vector<std::size_t> joint_of_row;
+  /// Whether a coordinate moves a row of Simbody's Jacobian, and coordinates that share no row: they take one sweep.
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> moves;
+  std::vector<std::vector<int>> sweeps;
   std::optional<Eigen::MatrixXd> rates;  ///< of all coordinates by those of the motors, at the placed state
   bool simbodys_own = true;
 
@@ -118,6 +121,7 @@ struct SimbodyMechanism::Impl {
   void addCoordinates();
   void addCoordinate(std::size_t joint);
   void addScales();
+  void addSweeps();
   void addForces();
   /// Returns the joint's frame on its parent's or its child's side; the axes are given at the parent's side.
   SimTK::Transform side(std::size_t joint, bool of_child, const Matrix3d& axes) const;
@@ -162,6 +166,8 @@ struct SimbodyMechanism::Impl {
   Eigen::VectorXd residual(const SimTK::Vector& accelerations, const Eigen::VectorXd& applied) const;
   SimTK::Vector eliminated(const Eigen::VectorXd& efforts) const;
   SimTK::Vector byRealizing(const Eigen::VectorXd& efforts);
+  /// The same, quicker, at any state near closed loops; where Simbody's own serves.
+  SimTK::Vector byMultipliers(const Eigen::VectorXd& efforts) const;
   bool simbodyAgrees();
   Eigen::VectorXd motorAccelerations() const;
   BodyState stateOf(std::size_t body, const SimTK::Vector_<SimTK::SpatialVec>& accelerations) const;

@@ -51,13 +51,19 @@ Eigen::VectorXi LeastSquares::independentColumns() const {
   return qr_.colsPermutation().indices().head(rank_);
 }
 
+// calcG takes a sweep of the tree for each coordinate. Here one sweep serves all coordinates that move no row together,
+// and every number has the bits of calcG's.
 Eigen::MatrixXd SimbodyMechanism::Impl::closureRows() const {
-  SimTK::Matrix G;
-  matter.calcG(state, G);
-  Eigen::MatrixXd out(row_scale.size(), state.getNU());
-  for (int i = 0; i < G.nrow(); ++i)
-    for (int j = 0; j < G.ncol(); ++j) out(i, j) = G(i, j);
-  Eigen::Index next = G.nrow();
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(row_scale.size(), state.getNU());
+  Eigen::Index next = moves.rows();
+  SimTK::Vector bias, speeds(state.getNU()), errors;
+  matter.calcBiasForMultiplyByG(state, bias);
+  for (const std::vector<int>& sweep : sweeps) {
+    speeds.setToZero();
+    for (const int j : sweep) speeds[j] = 1;
+    matter.multiplyByG(state, speeds, bias, errors);
+    for (const int j : sweep) out.col(j).head(next) = moves.col(j).select(mapped(errors).array(), 0);
+  }
   for (const IdleSpin& spin : spins) {
     const Vector3d line = rotation(spin.body) * spin.line;
     const Eigen::MatrixXd J = frameJacobian(spin.body, displacement(spin.body) * bodies[spin.body].origin);

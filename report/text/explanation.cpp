@@ -36,7 +36,7 @@ const char* needsInWords(CheckNeeds needs) {
     case CheckNeeds::torque_file:
       return "torques that come from a file (--torques)";
     case CheckNeeds::model_file:
-      return "a machine that a model file describes ([mechanism]), and MuJoCo in this build";
+      return "a machine that a model file describes ([mechanism])";
     case CheckNeeds::nothing:
       break;
   }

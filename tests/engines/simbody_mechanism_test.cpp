@@ -28,6 +28,16 @@ double largestEffort(const std::vector<LoopRow>& rows) {
   return out;
 }
 
+/// How far the state's derivative is off Simbody's own accelerations, relative to them.
+double derivativeError(SimbodyMechanism& loop, const Eigen::VectorXd& efforts) {
+  const std::vector<double> y = loop.state();
+  std::vector<double> y_dot(y.size());
+  loop.accelerations(efforts);
+  const Eigen::VectorXd own = loop.openTree().u_dot;
+  loop.derivative(0, y.data(), efforts, y_dot.data());
+  return (Eigen::Map<const Eigen::VectorXd>(y_dot.data(), y_dot.size()).tail(own.size()) - own).norm() / own.norm();
+}
+
 double effortError(const Mechanism& mechanism, Tree tree, const std::vector<LoopRow>& rows) {
   SimbodyMechanism loop(mechanism, tree);
   double worst = 0;
@@ -68,6 +78,16 @@ TEST_P(LoopOfFile, acceleratesAsCommandedUnderItsEfforts) {
     }
     std::cout << GetParam() << (loop.usesSimbodysOwn() ? ", Simbody's own: " : ", eliminated: ") << worst << '\n';
     EXPECT_LT(worst, 10 * room);  // there and back
+  }
+}
+
+TEST_P(LoopOfFile, hasTheDerivativeOfSimbodysOwnAccelerations) {
+  for (const Tree tree : trees) {
+    SimbodyMechanism loop(mechanism_, tree);
+    for (const LoopRow& row : rows_) {
+      loop.place(row.motion);
+      EXPECT_LT(derivativeError(loop, 1.1 * row.efforts), 10 * room);
+    }
   }
 }
 
@@ -126,6 +146,7 @@ TEST(LoopsOfFiles, areTheSameIfHingesCloseAPlanarLoop) {
       for (const LoopRow& row : rows) {
         loop.place(row.motion);
         EXPECT_LT((loop.accelerations(row.efforts) - row.motion.qddot).norm(), 10 * room * row.motion.qddot.norm());
+        EXPECT_LT(derivativeError(loop, row.efforts), 10 * room);
       }
     }
   }

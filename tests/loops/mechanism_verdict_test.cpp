@@ -55,7 +55,7 @@ TEST_P(MechanismVerdict, ofTheNocIsPass) {
   EXPECT_EQ(result.verdict, Verdict::pass) << failed;
   for (const char* name : {"torque.pointwise", "torque.twin", "torque.between", "acceleration.pointwise",
                            "direct.pointwise", "complement.orthogonality", "complement.rank", "kinematics.positions",
-                           "invariance.rotation", "invariance.labels", "invariance.units"}) {
+                           "invariance.rotation", "invariance.labels", "invariance.units", "energy.power"}) {
     const Check* check = findCheck(result.checks, name);
     ASSERT_NE(check, nullptr) << name;
     EXPECT_EQ(check->verdict, Verdict::pass) << name;
@@ -78,6 +78,29 @@ TEST_P(MechanismVerdict, ofRightEffortsIsPassAndOfAMillionthOffInOneMotorIsFail)
   EXPECT_EQ(result.deviation->where, scenario.mechanism->motor(0).name);
   EXPECT_EQ(findCheck(result.checks, "torque.against_noc")->verdict, Verdict::fail);
   EXPECT_EQ(findCheck(result.checks, "torque.pointwise")->verdict, Verdict::fail);
+}
+
+/// Each motor of these machines works along the motion.
+TEST_P(MechanismVerdict, ofThePowerSeesAMillionthInEachMotor) {
+  const MechanismScenario scenario = loopScenario(GetParam());
+  const GivenEfforts right = effortsOf(scenario);
+  const Check passed = *findCheck(judged(scenario, right).checks, "energy.power");
+  EXPECT_EQ(passed.verdict, Verdict::pass) << passed.why;
+  EXPECT_GT(passed.limit, 0);
+  for (Eigen::Index k = 0; k < right.efforts.front().size(); ++k) {
+    GivenEfforts wrong = right;
+    for (MotorEfforts& each : wrong.efforts) each(k) *= 1 + 1e-6;
+    const Check failed = *findCheck(judged(scenario, wrong).checks, "energy.power");
+    EXPECT_EQ(failed.verdict, Verdict::fail) << k << ": " << failed.value << " of " << failed.limit;
+  }
+}
+
+TEST(MechanismPower, ofAMachineAtRestDoesNotApply) {
+  MechanismScenario scenario = loopScenario("fourbar");
+  scenario.trajectory = makeMotorHold(1, scenario.trajectory->at(0).q);
+  const ValidationResult result = validateMechanism(shortened(scenario));
+  EXPECT_EQ(findCheck(result.checks, "energy.power")->verdict, Verdict::not_applicable);
+  EXPECT_EQ(result.verdict, Verdict::pass);
 }
 
 TEST_P(MechanismVerdict, ofAMassOffByATenThousandthIsFail) {

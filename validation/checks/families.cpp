@@ -125,8 +125,8 @@ std::vector<CheckFamily> familiesOfCore() {
        judgeMotion,
        nullptr,
        true},
-      // Machines of this kind have no file; validateMechanism() judges it.
-      {"model", {"model.reading"}, [](E) { return false; }, [](E) { return std::vector<Check>(); }},
+      // Machines of this kind have no file; validateMechanism() judges these.
+      {"model", {"model.reading", "energy.power"}, [](E) { return false; }, [](E) { return std::vector<Check>(); }},
       {"samples",
        {"kinematics.joint_angles", "kinematics.joint_rates", "kinematics.joint_accelerations", "kinematics.positions",
         "kinematics.twists", "kinematics.accelerations", "kinematics.jacobian", "kinematics.jacobian_rate",

@@ -180,6 +180,24 @@ std::vector<Check> judgeWindows(const Judge& judge) {
   return out;
 }
 
+Check judgePower(const MechanismEvidence& evidence) {
+  WorstShare worst;
+  CheckedQuantity of{"energy.power", "W"};
+  of.of_motion = true;
+  for (const MechanismPower& power : evidence.powers) {
+    worst.add(power.error, power.limit, power.t);
+    of.size = std::max(of.size, power.size);
+    of.given = std::max(of.given, power.given);
+  }
+  of.seen = of.along = of.size;
+  return judgedShown(
+      of, worst, Units(),
+      {"the efforts' limits times the rates, rounding of the energies over the step, and what "
+       "half the step changes of their differences",
+       fmt::format("the motors' power against Simbody's energies and losses, at {} instants", evidence.powers.size()),
+       nullptr, "the energies change too quickly near a singular pose"});
+}
+
 /// What lies between the rows of a file, or beyond them, is not judged.
 Check judgeCover(const MechanismEvidence& evidence) {
   const Cover& cover = evidence.cover;
@@ -219,6 +237,7 @@ std::vector<Check> judgeMechanism(const MechanismEvidence& evidence, const Mecha
   out.push_back(judgeAccelerations(judge, "acceleration.pointwise",
                                    "accelerations of the motors in Simbody under the efforts, commanded state",
                                    &S::acceleration, [](const S& s) { return s.motion.qddot; }));
+  if (!evidence.powers.empty()) out.push_back(judgePower(evidence));
   if (subject.isNoc()) {
     out.push_back(judgeAccelerations(judge, "direct.pointwise", "direct dynamics (36) against Simbody's, same efforts",
                                      &S::direct, [](const S& s) { return s.acceleration; }));

@@ -237,6 +237,7 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
   if (subject.gives_accelerations)
     for (std::vector<MechanismSample>* samples : {&out.samples, &out.between})
       for (MechanismSample& sample : *samples) sample.given = roundedAccelerations(out, sample);
+  out.powers = powersOf(out, deadline);
   if (subject.isNoc()) out.invariances = askInvariances(scenario, motion);
   return out;
 }

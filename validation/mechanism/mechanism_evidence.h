@@ -109,6 +109,13 @@ struct MechanismWindow {
   double order_gain = 0;  ///< how much finer steps moved the end, m
 };
 
+/// The motors' power against what the engine's energies and losses need, at an instant, W.
+struct MechanismPower {
+  double t = 0, error = 0, limit = 0;
+  double size = 0;   ///< of the motors' powers
+  double given = 0;  ///< possible error by missing digits
+};
+
 /// What of the motion the rows of a file tell.
 struct Cover {
   double begin = 0, end = 0;  ///< first and last row, s
@@ -132,6 +139,7 @@ struct MechanismEvidence {
   std::vector<MechanismSample> between;  ///< with subject, noc, scale and condition alone
   std::vector<MechanismInvariance> invariances;
   std::vector<MechanismWindow> windows;
+  std::vector<MechanismPower> powers;
   MotorEfforts efforts_in;  ///< what turns each motor's effort into the shown unit: 1, or the length if motors differ
   double level = 25;        ///< units of rounding that add up from the base to an effort
   double motion_level = 0;  ///< that of the NOC's efforts, if motion and time change by one rounding, measured
@@ -162,6 +170,9 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
 
 /// Sets the levels: how efforts and accelerations change if their inputs change by one rounding.
 void measureLevels(MechanismEvidence& evidence);
+
+/// Compares powers at some of the samples; where no motor moves, there is nothing to compare. Needs the levels.
+std::vector<MechanismPower> powersOf(const MechanismEvidence& evidence, const Deadline& deadline);
 
 /// Runs the replays; `efforts` are those of the subject at any instant.
 void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const Deadline& deadline,

@@ -2,6 +2,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "simbody/simbody_mechanism.h"
@@ -34,7 +35,7 @@ class Replayer {
     boost::numeric::odeint::runge_kutta_fehlberg78<State> stepper;
     const double h = (end - start.t) / steps;
     const auto system = [&](const State& at, State& rate, double t) {
-      simbody_.derivative(t, at.data(), efforts_(t) + more, rate.data());
+      simbody_.derivative(t, at.data(), effortsAt(t) + more, rate.data());
     };
     for (int k = 0; k < steps; ++k) {
       deadline_.require();
@@ -45,9 +46,17 @@ class Replayer {
   }
 
  private:
+  /// Stages and runs share instants.
+  const MotorEfforts& effortsAt(double t) {
+    const auto [at, is_new] = known_.try_emplace(t);
+    if (is_new) at->second = efforts_(t);
+    return at->second;
+  }
+
   SimbodyMechanism simbody_;
   std::size_t output_;
   std::function<MotorEfforts(double)> efforts_;
+  std::map<double, MotorEfforts> known_;
   Deadline deadline_;
 };
 
@@ -114,7 +123,8 @@ void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const
     const MotorEfforts none = MotorEfforts::Zero(noise.size());
     const End coarse = replayer.run(start, window.end, steps, none),
               fine = replayer.run(start, window.end, 2 * steps, none);
-    const End noisy = replayer.run(start, window.end, 2 * steps, noise);
+    // Where half the step changes more than the efforts' rounding does, order_gain has it.
+    const End noisy = replayer.run(start, window.end, steps, noise);
     static_cast<void>(evidence.motion->inverseDynamics(window.end, work));
     const Eigen::Isometry3d wanted = work.bodies[mechanism.output()].displacement;
     const auto apart = [&](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
@@ -124,9 +134,9 @@ void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const
     window.orientation = turnBetween(fine.output, wanted);
     window.order_gain = apart(fine.output, coarse.output);
     const double floor = evidence.level * rounding * sample.condition * sample.condition;
-    window.position_limit = allowance * (window.order_gain + apart(noisy.output, fine.output) + floor * length);
+    window.position_limit = allowance * (window.order_gain + apart(noisy.output, coarse.output) + floor * length);
     window.orientation_limit =
-        allowance * (turnBetween(fine.output, coarse.output) + turnBetween(noisy.output, fine.output) + floor);
+        allowance * (turnBetween(fine.output, coarse.output) + turnBetween(noisy.output, coarse.output) + floor);
     window.closure_position = fine.closure.position;
     window.closure_velocity = fine.closure.velocity;
     const double own_steps = (std::abs(fine.closure.position - coarse.closure.position));

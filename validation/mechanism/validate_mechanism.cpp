@@ -119,6 +119,8 @@ std::string whyNotOf(const CheckRow& row, const MechanismSubject& subject, const
   if (is_quick && (name == "torque.between" || (subject.isNoc() && (isOf(check, "replay") || isOf(check, "closure")))))
     return "left out by the caller's options";
   if (!evidence.not_replayed.empty() && (isOf(check, "replay") || isOf(check, "closure"))) return evidence.not_replayed;
+  if (name == "energy.power")
+    return evidence.out_of_time.empty() ? "no motor moves where the loops can follow to both sides" : "";
   for (const char* of_paths : {"feedback", "integration", "energy", "motion", "fast", "reactions"})
     if (isOf(check, of_paths)) return "not made for machines of this kind";
   if (name == "kinematics.joint_angles" || name == "kinematics.joint_rates" || name == "kinematics.joint_accelerations")
