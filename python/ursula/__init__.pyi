@@ -138,9 +138,9 @@ class MechanismScenario:
     def motion(self, t: npt.ArrayLike) -> MechanismMotion:
         """The commanded motion at t, s: (N,) or a number."""
     def inverse_dynamics(self, m: MechanismMotion) -> Array:
-        """Efforts of the n motors, N·m, or N if a motor slides: (N, n)."""
+        """Efforts of the n motors, N m, or N if a motor slides: (N, n)."""
     def direct_dynamics(self, m: MechanismMotion, tau: npt.ArrayLike) -> Array:
-        """Accelerations of the n motors under efforts tau, N·m or N, (N, n): rad/s² or m/s², (N, n)."""
+        """Accelerations of the n motors under efforts tau, N m or N, (N, n): rad/s² or m/s², (N, n)."""
     def to_toml(self) -> str:
         """The text of the scenario's source."""
 
@@ -192,9 +192,9 @@ class Scenario:
     def motion(self, t: npt.ArrayLike) -> Motion:
         """The commanded motion at t, s: (N,) or a number."""
     def inverse_dynamics(self, m: Motion, *, jobs: int = 0) -> Array:
-        """Efforts of the motors, N·m, or N if a motor slides: (N, 6)."""
+        """Efforts of the motors, N m, or N if a motor slides: (N, 6)."""
     def forward_dynamics(self, m: Motion, tau: npt.ArrayLike, *, jobs: int = 0) -> tuple[Array, Array]:
-        """(a, alpha) of the platform under efforts tau, N·m or N, (N, 6): m/s² and rad/s², each (N, 3)."""
+        """(a, alpha) of the platform under efforts tau, N m or N, (N, 6): m/s² and rad/s², each (N, 3)."""
     def inverse_kinematics(self, m: Motion) -> dict[str, Array]:
         """phi, psi, theta, d, if the legs have them, with rates and accelerations, rad, m and s, each (N, number of legs)."""
     def effort_derivatives(self, m: Motion) -> dict[str, Array]:
@@ -398,7 +398,7 @@ class Simulation:
         """Motion of the platform at the instants reached."""
     @property
     def tau(self) -> Array:
-        """Efforts at the same instants, N·m or N: (N, 6)."""
+        """Efforts at the same instants, N m or N: (N, 6)."""
     @property
     def gave_up(self) -> str | None:
         """The reason why the last instant was not reached."""
@@ -564,6 +564,6 @@ def validate(
 ) -> Result:
     """Validates a scenario, or that of a path, with this program's solver or with `solver`.
 
-    The solver turns a Motion of N instants into efforts (N, 6), or a MechanismMotion into (N, n), N·m or N. `accelerations` turns a
+    The solver turns a Motion of N instants into efforts (N, 6), or a MechanismMotion into (N, n), N m or N. `accelerations` turns a
     motion and efforts into the platform's (a, alpha), (N, 3) each, or into the motors' (N, n).
     """
