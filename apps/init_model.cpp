@@ -152,7 +152,8 @@ int initFromModel(const std::string& file, const std::string& model, const std::
   }
   const SmallMotion motion = alongLoops(scenario, [&] { return motionFor(scenario); });
   for (const std::string& text : scenario.read.warnings) say("{}\n", withoutControls(text));
-  writeOutput(file, textOf(nameFor(file, model), pathFrom(file, model), *scenario.mechanism, motion));
+  writeOutput(file,
+              schemaLine(file) + textOf(nameFor(file, model), pathFrom(file, model), *scenario.mechanism, motion));
   if (file != "-") say("wrote {}; next: ursula check {}\n", file, shellWord(file));
   return exit_passed;
 }

@@ -49,13 +49,24 @@ int init(const InitOptions& options) {
   if (options.file != "-" && std::filesystem::exists(std::filesystem::symlink_status(options.file)))
     throw UsageError(options.file + " exists, expected the name of a new file");
   if (!options.model.empty()) return initFromModel(options.file, options.model, options.motors);
-  writeOutput(options.file, options.from.empty() ? textFor(options.file, kindOf(options.kind))
-                                                 : withLengthsInMetres(options.lengths_per_metre, options.from));
+  writeOutput(options.file, options.from.empty()
+                                ? schemaLine(options.file) + textFor(options.file, kindOf(options.kind))
+                                : withLengthsInMetres(options.lengths_per_metre, options.from));
   if (options.file != "-") say("wrote {}; change it, then: ursula check {}\n", options.file, shellWord(options.file));
   return exit_passed;
 }
 
 }  // namespace
+
+std::string schemaLine(const std::string& file) {
+  std::error_code failed;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", failed);
+  for (const char* of : {"../share/ursula", "../docs"}) {  // installed, or built in its sources
+    const auto schema = (program.parent_path() / of / "scenario.schema.json").lexically_normal();
+    if (file != "-" && std::filesystem::exists(schema, failed)) return "#:schema " + schema.string() + "\n";
+  }
+  return "";
+}
 
 void addInit(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<InitOptions>();

@@ -62,4 +62,8 @@ ValidationResult judgeMechanism(const MechanismScenario& scenario, const OtherSu
 /// those that the model drives.
 int initFromModel(const std::string& file, const std::string& model, const std::vector<std::string>& motors);
 
+/// Returns the first line of a new scenario, "#:schema PATH", by which editors find the installed schema; empty if it
+/// is not installed or the scenario goes to standard output.
+std::string schemaLine(const std::string& file);
+
 }  // namespace ursula

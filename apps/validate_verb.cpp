@@ -101,7 +101,7 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
       ->check(finitePositive())
       ->transform(withoutPercent);  // runs first, because transforms run in reverse order
   verb->add_option("--atol", options->tolerance.absolute,
-                   "Largest error that passes, N m or N; added to that of --rtol")
+                   "Largest error that passes, N·m or N; added to that of --rtol")
       ->check(finitePositive());
   verb->add_flag("--any-tolerance", options->tolerance.any, "Accepts even a tolerance at which zeros would pass");
   verb->footer(

@@ -77,6 +77,7 @@ string(REGEX REPLACE "/$" "" to_prefix ${to_prefix})
 configure_file(cmake/ursula.pc.in ${PROJECT_BINARY_DIR}/ursula.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/ursula.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(DIRECTORY scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/ursula)
+install(FILES docs/scenario.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/ursula)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # The reference of the public headers, if Doxygen is installed; its warnings are errors.

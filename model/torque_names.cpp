@@ -133,7 +133,7 @@ std::vector<std::string> targetNames(const EffortAxes& motors) {
 std::string whatItTakes(const EffortAxes& motors, int k) {
   return fmt::format("motor {} {}, expected '{}' in {}", k + 1,
                      motors[k].slides ? "slides and has a force" : "turns and has a torque", targetName(motors, k),
-                     motors[k].slides ? "N" : "N m");
+                     motors[k].slides ? "N" : "N·m");
 }
 
 }  // namespace ursula

@@ -173,7 +173,7 @@ Explanation ranked(const std::vector<Hypothesis>& fitted, const Hypothesis& firs
   }
   Explanation out{std::move(text), {}, {}, claim};
   for (const Hypothesis& one : best) {
-    if (one.text != first.text) out.text += fmt::format("; next, {}, {:.3g} %", one.text, 100 * one.explained());
+    if (one.text != first.text) out.text += fmt::format(". Next: {}, {:.3g} %", one.text, 100 * one.explained());
     if (!one.named) continue;
     out.others.push_back(*one.named);
     out.others.back().explained = 1 - one.unexplained * one.unexplained;
@@ -185,8 +185,8 @@ Explanation ranked(const std::vector<Hypothesis>& fitted, const Hypothesis& firs
 std::string bestText(const Hypothesis& first) {
   if (first.explained() < worth_naming || first.of_found > worth_naming) return "";
   if (first.unexplained >= may_remain)
-    return fmt::format("{}, explains only {}", first.text, percent(first.explained()));
-  return fmt::format("{}, explains {}, but leaves {:.3g} % of what was answered", first.text,
+    return fmt::format("{}, which explains only {}", first.text, percent(first.explained()));
+  return fmt::format("{}, which explains {}. It leaves {:.3g} % of what was answered", first.text,
                      percent(first.explained()), 100 * first.of_found);
 }
 
@@ -205,7 +205,7 @@ Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torqu
   if (std::max(first.unexplained, first.of_found) < may_remain)
     return ranked(
         fitted, first,
-        fmt::format("a likely part: {}; what remains is up to {:.3g} times the limit of rounding and digits{}",
+        fmt::format("a likely part: {}. What remains is up to {:.3g} times the limit of rounding and digits{}",
                     how_much, first.beyond, othersText(best)),
         CauseClaim::part);
   if (const Explanation interval = intervalAlone(scenario, torques, data); !interval.text.empty()) return interval;
@@ -214,7 +214,7 @@ Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torqu
   if (const std::vector<Hypothesis> few = ofFewNumbers(fitted); !few.empty()) {
     const Hypothesis most = bestOf(few).front();
     if (const std::string some = bestText(most); !some.empty())
-      return ranked(few, most, "no simple explanation; the best, " + some, CauseClaim::none);
+      return ranked(few, most, "no simple explanation. The best: " + some, CauseClaim::none);
   }
   return noCause(isNoise(data.alongMotion()) ? "no pattern from one instant to the next, as of noise or too few digits"
                                              : "no simple explanation");

@@ -191,11 +191,11 @@ void listParts(std::vector<Fitted> fitted, const EffortResidual& data, Validatio
   if (fitted.empty()) return;
   const Fitted& first = fitted.front();
   if (first.unexplained > may_remain) {
-    result.cause_words.cause += fmt::format("; the best, {}, explains only {}", inWords(first), percentOf(first));
+    result.cause_words.cause += fmt::format(". The best: {}, which explains only {}", inWords(first), percentOf(first));
   } else {
     result.cause_words.claim = CauseClaim::part;
     result.cause_words.cause = fmt::format(
-        "a likely part: {}, which explains {}; what remains is up to {:.3g} times the limit of rounding and "
+        "a likely part: {}, which explains {}. What remains is up to {:.3g} times the limit of rounding and "
         "digits",
         inWords(first), percentOf(first), first.beyond);
   }
@@ -205,11 +205,11 @@ void listParts(std::vector<Fitted> fitted, const EffortResidual& data, Validatio
     result.causes.push_back(withShare(one));
     if (&one != &first)
       result.cause_words.cause +=
-          fmt::format("; next, {}, {:.3g} %", inWords(one), 100 * result.causes.back().explained);
+          fmt::format(". Next: {}, {:.3g} %", inWords(one), 100 * result.causes.back().explained);
   }
 }
 
-/// "motor 1 by up to 0.2 N m at t = 0.3 s"; empty if every motor is within its limits.
+/// "crank_hinge by up to 0.2 N m at t = 0.3 s"; empty if every motor is within its limits.
 std::string deviationIn(const EffortResidual& data) {
   std::string out;
   for (Eigen::Index k = 0; k < data.motors; ++k) {
@@ -222,8 +222,8 @@ std::string deviationIn(const EffortResidual& data) {
       at_s = data.t[i];
     }
     if (largest > 0)
-      out += fmt::format("{}motor {} by up to {:.4g} {} at t = {:.6g} s", out.empty() ? "" : "; ", k + 1, largest,
-                         data.mechanism->motor(k).slides() ? "N" : "N m", at_s);
+      out += fmt::format("{}{} by up to {:.4g} {} at t = {:.6g} s", out.empty() ? "" : "; ",
+                         data.mechanism->motor(k).name, largest, data.mechanism->motor(k).slides() ? "N" : "N m", at_s);
   }
   return out;
 }

@@ -34,8 +34,7 @@ int exportModel(const ExportOptions& options) {
   const Scenario scenario = openScenario(options.scenario, {options.out});
   const exchange::WrittenModel model = written(scenario, options.format);
   writeOutput(options.out, model.text);
-  for (const exchange::Assumption& note : model.notes)
-    say("note: {}: {} ({:.6g} {})\n", note.where, note.what, note.size, note.unit);
+  for (const exchange::Assumption& note : model.notes) say("note: {}\n", inWords(note));
   return exit_passed;
 }
 

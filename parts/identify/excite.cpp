@@ -161,7 +161,7 @@ class ExciteSearch {
     }
     throw UnmadeExcitation(fmt::format(
         "no motion of {:.3g} s about the pose at t = {:.6g} s keeps to the limits: speed {:.3g} rad/s or m/s, effort "
-        "{:.4g} N m or N, condition of B {:.4g}, margin {:.3g}, reach {:.3g} m, turn {:.3g} rad; expected a longer "
+        "{:.4g} N·m or N, condition of B {:.4g}, margin {:.3g}, reach {:.3g} m, turn {:.3g} rad; expected a longer "
         "period or wider limits",
         period_, middle_.t, limits_.speed, limits_.effort, limits_.kappa, limits_.margin, limits_.reach, limits_.turn));
   }

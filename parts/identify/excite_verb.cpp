@@ -46,7 +46,7 @@ void addExcite(CLI::App& app, std::function<int()>& run) {
       ->check(CLI::Range(6, 1000000));
   verb->add_option("--speed", o.speed, "Limit of driven speeds, rad/s or m/s; default: 1.5 times the scenario's")
       ->check(finitePositive());
-  verb->add_option("--effort", o.effort, "Limit of efforts, N m or N; default: 1.5 times the scenario's")
+  verb->add_option("--effort", o.effort, "Limit of efforts, N·m or N; default: 1.5 times the scenario's")
       ->check(finitePositive());
   verb->add_option("--reach", o.reach,
                    "Limit of P's distance from the middle, m; default: a tenth of the machine's length")

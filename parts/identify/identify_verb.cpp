@@ -85,7 +85,7 @@ void addIdentify(CLI::App& app, std::function<int()>& run) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false);
   verb->add_option("--constant", call->log.constants,
-                   "Motor constants for currents, N m/A or N/A: one for all motors, or six")
+                   "Motor constants for currents, N·m/A or N/A: one for all motors, or six")
       ->delimiter(',');
   verb->add_flag("--prior", call->prior, "Uses the scenario's tolerances as the numbers' prior uncertainty");
   verb->add_flag("--json", call->json, "Writes summary.json to standard output, and nothing else");

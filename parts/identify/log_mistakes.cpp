@@ -91,7 +91,7 @@ void findMistakes(const ModelledLog& modelled, const Motors& motors, IdentifyRes
   if (factor > 0 && std::abs(std::log10(factor)) > least_power &&
       (model * factor - measured).squaredNorm() < explains * measured.squaredNorm())
     add(out, "units", -1, factor,
-        fmt::format("all efforts are {:.4g} times the model's: expected {}", factor, motors[0].slides() ? "N" : "N m"));
+        fmt::format("all efforts are {:.4g} times the model's: expected {}", factor, motors[0].slides() ? "N" : "N·m"));
 }
 
 void findUnitOfTime(double of_motion, IdentifyResult& out) {

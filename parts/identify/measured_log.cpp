@@ -38,7 +38,7 @@ PerMotor<double> constantsOf(const Columns& columns, const std::vector<double>& 
   out.fill(1);
   if (columns.has_currents && given.size() != 1 && given.size() != motor_count)
     throw CsvError(fmt::format(
-        "the log has currents: --constant needs the motors' constants, N m/A or N/A, one or six, and got {}",
+        "the log has currents: --constant needs the motors' constants, N·m/A or N/A, one or six, and got {}",
         given.size()));
   if (!columns.has_currents && !given.empty()) throw CsvError("--constant is for currents, and the log has efforts");
   for (std::size_t k = 0; k < motor_count && !given.empty(); ++k) out[k] = given.size() == 1 ? given[0] : given[k];

@@ -14,8 +14,8 @@ namespace {
 constexpr const char* opening = R"(# Scenarios
 
 A scenario is one TOML file. It has either `[manipulator]`, six motors on legs, or `[mechanism]`, a model file with [any closed loop](#any-closed-loop). This page is made by `./dev docs` from the tables that the reader itself goes by (`model/scenario_keys.cpp`, `model/mechanism_keys.cpp`);
-[scenario.schema.json](scenario.schema.json) is the same for editors: with Taplo (Even Better TOML), `#:schema docs/scenario.schema.json` as the first line
-of a file switches it on. `ursula init FILE.toml --kind UPS` (or URS, RUS, PUS) writes a scenario to start from, `ursula init FILE.toml --model MODEL` one of a model file, `ursula check FILE.toml` says what is wrong or odd in one.
+[scenario.schema.json](scenario.schema.json) is the same for editors: with Taplo (Even Better TOML), `#:schema PATH` as the first line
+of a file switches it on. `ursula init` writes that line with the path of the installed file, if there is one. `ursula init FILE.toml --kind UPS` (or URS, RUS, PUS) writes a scenario to start from, `ursula init FILE.toml --model MODEL` one of a model file, `ursula check FILE.toml` says what is wrong or odd in one.
 
 A key that is not here is an error, and so is a value of another type. Numbers may be written as integers and must be finite. A key without a default is
 required, unless "Default" is a dash.

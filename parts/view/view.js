@@ -36,6 +36,9 @@ function table(id, columns, names) {
     );
 }
 
+/** As many digits as a field shows. */
+const short = (value) => Number(Number(value).toPrecision(7));
+
 /** The values of all sliders; `set` moves them. */
 function controls(host, onChange) {
   const inputs = sliders.map(({ name, unit, from, to, value }, k) => {
@@ -44,8 +47,8 @@ function controls(host, onChange) {
     const exact = element("input", { type: "number", step: "any", "aria-label": `${name}, ${unit}`, "data-exact": k });
     line.append(element("span", {}, name), range, exact, element("span", {}, unit));
     host.append(line);
-    range.value = exact.value = value;
-    range.addEventListener("input", () => ((exact.value = range.value), onChange()));
+    range.value = exact.value = short(value);
+    range.addEventListener("input", () => ((exact.value = short(range.value)), onChange()));
     exact.addEventListener("change", () => {
       range.value = exact.value; // within its ends
       if (Number(range.value) !== Number(exact.value)) exact.value = range.value;
@@ -55,7 +58,7 @@ function controls(host, onChange) {
   });
   return {
     values: () => inputs.map(({ exact }) => Number(exact.value)),
-    set: (values) => inputs.forEach(({ range, exact }, k) => (range.value = exact.value = values[k])),
+    set: (values) => inputs.forEach(({ range, exact }, k) => (range.value = exact.value = short(values[k]))),
   };
 }
 

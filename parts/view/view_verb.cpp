@@ -32,6 +32,7 @@ int view(const ViewOptions& options) {
 void addView(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<ViewOptions>();
   CLI::App* verb = app.add_subcommand("view", "Makes a page with the machine to move, and shows it in the browser");
+  verb->group(preparing);
   verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
   verb->add_option("--out", options->out,
                    "HTML file, - for standard output; nothing is then started. Default: results/view/NAME.html");

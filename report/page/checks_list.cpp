@@ -50,7 +50,7 @@ HtmlValue bar(const Check& check, const Decades& decades) {
 std::string inFull(const Check& check) {
   if (std::isnan(check.value) && std::isnan(check.limit)) return check.name;
   return fmt::format("{}: value {}, limit {}, unit {}", check.name, check.value, check.limit,
-                     check.unit.empty() ? "1" : check.unit);
+                     check.unit.empty() ? "1" : prettyUnit(check.unit));
 }
 
 const char* sign(Verdict verdict) {
@@ -73,11 +73,19 @@ std::string word(Verdict verdict) {
   return out;
 }
 
-HtmlValue item(const Check& check, const Decades& decades, const std::string& kind) {
+/// `repeated` checks are folded in a row of their own; `first` and `last` tell where it begins and ends.
+struct Repeated {
+  std::string first;
+  bool any = false, last = false;
+};
+
+HtmlValue item(const Check& check, const Decades& decades, const std::string& kind, const Repeated& repeated) {
   const CheckWords words = checkWords(check.name, kind);
   const bool has_value = !std::isnan(check.value) || !std::isnan(check.limit);
   return {{"verdict", name(check.verdict)},
-          {"open", check.verdict == Verdict::fail || check.verdict == Verdict::inconclusive},
+          {"open", !repeated.any && (check.verdict == Verdict::fail || check.verdict == Verdict::inconclusive)},
+          {"repeated", repeated.first},
+          {"repeated_end", repeated.last},
           {"sign", sign(check.verdict)},
           {"word", word(check.verdict)},
           {"title", words.title},
@@ -105,17 +113,30 @@ std::string counts(const std::vector<Check>& checks) {
   return text;
 }
 
+/// The checks' rows; those that repeat the first are one.
+std::vector<HtmlValue> items(std::vector<Check> checks, const Decades& decades, const std::string& kind) {
+  const Check first = checks.front();
+  const auto rest = std::stable_partition(checks.begin() + 1, checks.end(),
+                                          [&first](const Check& check) { return repeats(check, first); });
+  const auto count = static_cast<std::size_t>(rest - checks.begin()) - 1;
+  std::string titles = fmt::format("{} more {} the same: ", count, count == 1 ? "finds" : "find");
+  for (std::size_t k = 1; k <= count; ++k) titles += (k > 1 ? ", " : "") + checkWords(checks[k].name, kind).title;
+  std::vector<HtmlValue> out;
+  for (std::size_t k = 0; k < checks.size(); ++k) {
+    const bool is_repeated = k >= 1 && k <= count;
+    out.push_back(
+        item(checks[k], decades, kind, {is_repeated && k == 1 ? titles : "", is_repeated, is_repeated && k == count}));
+  }
+  return out;
+}
+
 HtmlValue group(const std::string& title, std::vector<Check> checks, const Decades& decades, const std::string& kind) {
   std::stable_sort(checks.begin(), checks.end(),
                    [](const Check& a, const Check& b) { return severity({a}) > severity({b}); });
   const int worst = severity(checks);
   const Verdict verdict = worst == 2 ? Verdict::fail : worst == 1 ? Verdict::inconclusive : Verdict::pass;
-  return {{"verdict", name(verdict)},
-          {"open", worst > 0},
-          {"badge", verdictBadge(verdict)},
-          {"title", title},
-          {"counts", counts(checks)},
-          {"checks", listOf(checks, [&](const Check& check) { return item(check, decades, kind); })}};
+  return {{"verdict", name(verdict)}, {"open", worst > 0},        {"badge", verdictBadge(verdict)},
+          {"title", title},           {"counts", counts(checks)}, {"checks", items(checks, decades, kind)}};
 }
 
 HtmlValue notApplicable(const std::vector<Check>& checks, const std::string& kind) {

@@ -15,6 +15,7 @@
 #include "report/text/mechanism_words.h"
 #include "report/text/quantity.h"
 #include "report/text/result_facts.h"
+#include "report/text/terminal.h"
 #include "report/text/text.h"
 #include "validation/verdict/effort_words.h"
 
@@ -58,21 +59,21 @@ std::string factsTable(const char* caption, const Facts& facts, const std::strin
 Facts blindFacts(const ValidationResult& result) {
   Facts out;
   if (!result.blind) return out;
-  for (const BlindSpot& one : *result.blind) {
+  for (const BlindSpot& one : alikeAsOne(*result.blind)) {
     std::string key = name(one.cause.kind);
     if (!one.cause.term.empty()) key += ": " + one.cause.term;
     std::replace(key.begin(), key.end(), '_', ' ');
     const auto same = std::find_if(out.begin(), out.end(), [&](const auto& fact) { return fact.first == key; });
     if (same == out.end())
-      out.emplace_back(key, one.mistake);
+      out.emplace_back(key, unbroken(one.mistake));
     else
-      same->second += "; " + one.mistake;
+      same->second += "; " + unbroken(one.mistake);
   }
   return out;
 }
 
 Facts printed(Facts facts) {
-  for (auto& [key, text] : facts) text = formulaInPrint(text);
+  for (auto& [key, text] : facts) text = unbroken(formulaInPrint(text));
   return facts;
 }
 

@@ -88,9 +88,8 @@ std::string patternText(const MotorDeviation& motor) {
 
 /// With as many digits as tell the two apart.
 std::string effortText(double value, const MotorDeviation& motor) {
-  return fmt::format("{:.{}g} {}", value,
-                     digitsToTell(std::min(motor.given, motor.expected), std::max(motor.given, motor.expected)),
-                     prettyUnit(motor.unit));
+  return quantity(value, motor.unit,
+                  digitsToTell(std::min(motor.given, motor.expected), std::max(motor.given, motor.expected)));
 }
 
 HtmlValue motorRow(const MotorDeviation& motor, const std::vector<std::string>& names) {

@@ -84,7 +84,7 @@ std::string jointDrawn(const MechanismPicture& picture, const MechanismPicture::
 
 /// The motors' names below their joints; one that would cover another moves down.
 std::string motorsNamed(const MechanismPicture& picture, const std::vector<bool>& wrong, const Projection& on) {
-  constexpr double line = 15, letter = 7.5;
+  constexpr double line = 15, letter = 7.5, slack = 1e-6;  // a rounded sum must not count as covered for ever
   std::vector<Eigen::Vector2d> taken;
   std::vector<std::size_t> widths;
   std::string out;
@@ -95,7 +95,7 @@ std::string motorsNamed(const MechanismPicture& picture, const std::vector<bool>
     const std::string text = (is_wrong ? "✗ " : "") + joint.name;
     Eigen::Vector2d at = on.at(placed(picture.bodies[joint.child], joint.at_child, 0)) + Eigen::Vector2d(0, 21);
     for (std::size_t i = 0; i < taken.size(); ++i)
-      if (std::abs(taken[i].y() - at.y()) < line &&
+      if (std::abs(taken[i].y() - at.y()) < line - slack &&
           std::abs(taken[i].x() - at.x()) < letter * static_cast<double>(widths[i] + columnsOf(text)) / 2)
         at.y() = taken[i].y() + line, i = static_cast<std::size_t>(-1);
     taken.push_back(at);

@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "model/check_catalogue.h"
+#include "report/text/quantity.h"
 #include "report/text/text.h"
 
 namespace ursula::report {
@@ -60,7 +61,7 @@ std::string meant(const std::string& check) {
 std::string explanation(const std::string& check) {
   const CheckRow* row = checkRow(check);
   if (row == nullptr) throw std::invalid_argument(fmt::format("no check '{}'{}", check, meant(check)));
-  const std::string unit = *row->unit == '\0' ? "a number" : fmt::format("in {}", row->unit);
+  const std::string unit = *row->unit == '\0' ? "a number" : "in " + prettyUnit(row->unit);
   const std::string own = fmt::format(
       "[acceptance] \"{}\" = X in the scenario; if it is wider than the derived one, the result says so.", check);
   return fmt::format("{}: {}, {}\n\n{}{}{}{}{}", check, row->title, unit, paragraph("proves", row->proves),

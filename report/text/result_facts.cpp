@@ -236,6 +236,15 @@ std::vector<KeyFigure> keyFigures(const ValidationResult& result) {
   return out;
 }
 
+bool repeats(const Check& check, const Check& first) {
+  constexpr double as_large = 0.01;
+  const bool fail = check.verdict == Verdict::fail && first.verdict == Verdict::fail && isOf(first, "torque");
+  if (!fail || !std::isfinite(check.value) || !std::isfinite(first.value)) return false;
+  if (check.name == "acceleration.pointwise") return true;
+  return isOf(check, "torque") && check.unit == first.unit &&
+         std::abs(check.value - first.value) <= as_large * first.value;
+}
+
 std::string causeText(const CauseWords& words) {
   return (words.claim == CauseClaim::likely ? "likely cause: " : "") + words.cause;
 }

@@ -37,6 +37,10 @@ std::vector<KeyFigure> keyFigures(const ValidationResult& result);
 /// Returns the findings' names and texts.
 std::vector<std::pair<std::string, std::string>> findingTexts(const ValidationResult& result);
 
+/// Whether a failed check of the efforts only repeats `first`: as large a deviation from another formulation, or the
+/// acceleration that it causes.
+bool repeats(const Check& check, const Check& first);
+
 /// Returns "likely cause: a factor of 1.001 on leg 3"; words that claim no cause stay alone.
 std::string causeText(const CauseWords& words);
 

@@ -78,7 +78,7 @@ std::string verdictWord(const Check& check) {
 std::string whyLine(const Check& check) {
   std::string why = check.why;
   std::replace(why.begin(), why.end(), '\n', ' ');
-  if (!why.empty()) return why;
+  if (!why.empty()) return prettyUnit(why);
   return std::isnan(check.value) ? "it has no value" : standing(check);
 }
 
@@ -130,20 +130,29 @@ std::string groupsText(const ValidationResult& result, bool coloured) {
   for (std::size_t k = 0; k < groups.size(); ++k) width = std::max(width, columnsOf(groupTitle(result, k)));
   std::string out;
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    Group passed, others;
-    for (const Check* check : groups[k]) (check->verdict == Verdict::pass ? passed : others).push_back(check);
     if (groups[k].empty()) continue;
+    Group passed, others;
+    std::string repeated;
+    for (const Check* check : groups[k]) {
+      if (!others.empty() && repeats(*check, *others.front()))
+        repeated += (repeated.empty() ? "the same: " : ", ") + check->name;
+      else
+        (check->verdict == Verdict::pass ? passed : others).push_back(check);
+    }
     const Check* worst = others.empty() ? passed.front() : others.front();
     for (const Check* check : others)
       if (check->verdict == Verdict::fail) worst = check;
     const Paint paint = worst->reason == Reason::reported ? Paint::quiet : paintOf(worst->verdict);
     out += "  " + painted(padded(verdictWord(*worst), verdict_width), paint, coloured) + "  " +
            padded(groupTitle(result, k), width) + "  " +
-           (others.empty() ? passedText(passed) : fmt::format("{} of {}", others.size(), groups[k].size())) + "\n";
+           (others.empty() ? passedText(passed)
+                           : fmt::format("{} of {}", groups[k].size() - passed.size(), groups[k].size())) +
+           "\n";
     std::vector<std::vector<std::string>> rows;
     for (const Check* check : others) rows.push_back(tableRow(*check));
     out += groupText(others, alignedRows(rows, {Align::left, Align::right, Align::right, Align::left, Align::right}),
                      coloured, 4);
+    if (!repeated.empty()) out += indented(4 + verdict_width + 2, painted(repeated, paint, coloured));
   }
   return out;
 }
@@ -240,20 +249,15 @@ std::string reasonsText(const ValidationResult& result) {
   return out.empty() ? "" : "\n" + out;
 }
 
-/// The motor that is most off; that of a manipulator is in the sentence on the deviation.
-std::string worstOfMechanism(const ValidationResult& result) {
-  return result.mechanism == nullptr ? "" : worstMotor(result);
-}
-
 /// The verdict with its size and its cause.
 std::string headText(const ValidationResult& result, const std::string& verdict) {
-  const std::string worst = worstOfMechanism(result), size = sizeText(result), remedy = remedyText(result);
+  const std::string worst = worstMotor(result), size = sizeText(result), remedy = remedyText(result);
   std::string out = fmt::format("{}: {}\nverdict: {} — {}\n", withoutControls(result.scenario), verdict, verdict,
                                 reason(result.verdict, result.checks));
-  for (const std::string& line : deviationLines(result)) out += line + "\n";
+  for (const std::string& line : deviationLines(result)) out += prettyUnit(line) + "\n";
   if (!worst.empty()) out += fmt::format("worst: {}\n", withoutControls(worst));
   if (!size.empty()) out += "size: " + size + "\n";
-  if (!result.cause_words.cause.empty()) out += causeText(result.cause_words) + "\n";
+  if (!result.cause_words.cause.empty()) out += prettyUnit(causeText(result.cause_words)) + "\n";
   if (!remedy.empty()) out += "remedy: " + withoutControls(remedy) + "\n";
   return out;
 }
@@ -282,8 +286,8 @@ std::string quietText(const ValidationResult& result, bool coloured) {
   std::string out = quietHead(suiteEntry(result, ""), coloured);
   const CauseWords& words = result.cause_words;
   if (!words.cause.empty() && out.back() == '.') out.pop_back();
-  if (const std::string worst = worstOfMechanism(result); !worst.empty()) out += " — " + withoutControls(worst);
-  if (!words.cause.empty()) out += "; " + causeText(words);
+  if (const std::string worst = worstMotor(result); !worst.empty()) out += " — " + withoutControls(worst);
+  if (!words.cause.empty()) out += "; " + prettyUnit(causeText(words));
   if (const std::string remedy = remedyText(result); !remedy.empty()) out += ". " + withoutControls(remedy);
   return inOneLine(out);
 }

@@ -15,6 +15,9 @@ std::string quietText(const SuiteEntry& entry, bool coloured);
 /// Returns a line per scenario in the given order, then the totals. `dir` contains their folders.
 std::string suiteText(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir, bool coloured);
 
+/// Returns the mistakes, those with one sentence but for the body's or joint's name as one that names all.
+std::vector<BlindSpot> alikeAsOne(const std::vector<BlindSpot>& blind);
+
 /// Returns lines of mistakes that a scenario cannot show: the first few, one of each term.
 std::string blindText(const std::vector<BlindSpot>& blind);
 

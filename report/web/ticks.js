@@ -42,5 +42,5 @@ export function linearTicks(splits, increment) {
 
 /** Formats a value for the legend. */
 export function shortNumber(value) {
-  return value == null ? "–" : value.toPrecision(4).replace("e+", "e");
+  return value == null ? "–" : value.toPrecision(4).replace("e+", "e").replaceAll("-", "−");
 }

@@ -92,6 +92,32 @@ export async function drawnBox(page) {
   }, [drawn.toString("base64"), blank.toString("base64")]);
 }
 
+/** Texts that a box without a scroll bar hides, wholly or in part. */
+export const cutTexts = (page) =>
+  page.evaluate(() => {
+    const slack = 3; // px, of a line's own height
+    const isBeyond = (inner, outer) =>
+      inner.right > outer.right + slack || inner.left < outer.left - slack || inner.bottom > outer.bottom + slack || inner.top < outer.top - slack;
+    const isCut = (box, element) => {
+      for (let around = element; around && around !== document.body; around = around.parentElement) {
+        const { overflowX } = getComputedStyle(around);
+        if (overflowX === "auto" || overflowX === "scroll") return false;
+        if (overflowX !== "visible" && isBeyond(box, around.getBoundingClientRect())) return true;
+      }
+      return false;
+    };
+    const cut = new Set();
+    const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    while (texts.nextNode()) {
+      const { currentNode: text } = texts;
+      if (!text.data.trim() || text.parentElement.closest("script, style, math, .unseen")) continue;
+      const range = document.createRange();
+      range.selectNodeContents(text);
+      if ([...range.getClientRects()].some((box) => box.width > 1 && isCut(box, text.parentElement))) cut.add(text.data.trim());
+    }
+    return [...cut];
+  });
+
 const findings = async (page, options) => {
   const { violations } = await page.evaluate((asked) => globalThis.axe.run(document, asked), { resultTypes: ["violations"], ...options });
   return violations

@@ -27,6 +27,16 @@ TEST(Init, writesAScenarioThatPassesTheCheckAndCanBeComputed) {
   EXPECT_EQ(ursula.files(), 1u);
 }
 
+TEST(Init, tellsEditorsWhereTheSchemaIs) {
+  const Program ursula;
+  ASSERT_EQ(ursula("init robot.toml --kind UPS").exit_code, 0);
+  const std::string text = TemporaryFolder::read(ursula.folder() / "robot.toml"), directive = "#:schema ";
+  ASSERT_THAT(text, StartsWith(directive));
+  const std::string path = text.substr(directive.size(), text.find('\n') - directive.size());
+  EXPECT_THAT(path, StartsWith("/"));
+  EXPECT_TRUE(nlohmann::json::parse(TemporaryFolder::read(path)).contains("$schema")) << path;
+}
+
 TEST(Init, neverOverwrites) {
   const Program ursula;
   ursula.write("mine.toml", "mine");

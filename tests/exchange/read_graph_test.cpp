@@ -216,5 +216,10 @@ TEST(ReadUrdf, robotYamlChangesJoints) {
   }
 }
 
+TEST(Assumption, saysASizeWithItsUnitIfItHasOne) {
+  EXPECT_EQ(inWords({"It has iterations", "option", 50, "1"}), "option: It has iterations (50)");
+  EXPECT_EQ(inWords({"It is open", "pin", 0.01, "m", true}), "warning: pin: It is open (0.01 m)");
+}
+
 }  // namespace
 }  // namespace ursula::exchange

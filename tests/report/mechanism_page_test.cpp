@@ -145,6 +145,19 @@ TEST(Marks, areOnWrongMotorsUnlessAllAre) {
   EXPECT_FALSE(report::worstOf(motors).has_value());
 }
 
+/// Efforts that differ from two formulations by as much are one fact.
+TEST(MechanismPage, hasOneRowForOneFact) {
+  const std::string repeated =
+      "<details class=\"repeated\"><summary>1 more finds the same: Simbody, another spanning tree<";
+  const std::string html = seen(report::reportHtml(sampleOf(1.01), Place::alone));
+  EXPECT_TRUE(contains(html, repeated));
+  EXPECT_TRUE(contains(html, "<details class=\"check fail\" open>"));
+  EXPECT_TRUE(contains(html.substr(html.find(repeated)), "<details class=\"check fail\">")) << "it is folded";
+  ValidationResult two = sampleOf(1.01);
+  two.checks[1].value *= 2;
+  EXPECT_FALSE(contains(seen(report::reportHtml(two, Place::alone)), "the same: ")) << "two engines that differ";
+}
+
 TEST(Unbroken, keepsNumbersAndUnitsOnOneLine) {
   EXPECT_EQ(report::unbroken("at t = 0.3 s by 1.61e-06 m within 2 runs"),
             "at t\u00a0=\u00a00.3\u00a0s by 1.61\u00a0×\u00a010⁻⁶\u00a0m within 2 runs");

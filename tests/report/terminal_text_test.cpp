@@ -102,7 +102,51 @@ torques against the expected ones:
       2  12.5 N·m   0 s          -12.5 N·m
       3   nan N·m   2 s
 )"));
-  EXPECT_THAT(report::validationText(result, false), HasSubstr("times its limit.\nlikely cause: of two kinds\n\n"));
+  EXPECT_THAT(
+      report::validationText(result, false),
+      HasSubstr("times its limit.\nworst: motor 3 was given no number where 3\u00a0N·m is expected, at t = 2 s\n"
+                "likely cause: of two kinds\n\n"));
+}
+
+TEST(TerminalText, saysOneFactOnce) {
+  const ValidationResult result =
+      of({judged("torque.pointwise", 2, 1, "N m", "", "leg 3"), judged("acceleration.pointwise", 5, 1, "m/s^2", "", ""),
+          judged("torque.twin", 2.001, 1, "N m", "", ""), judged("torque.maximal", 3, 1, "N m", "", "leg 4"),
+          judged("torque.mujoco", 0, 1, "N m", "", "")});
+  EXPECT_THAT(report::validationText(result, false),
+              AllOf(HasSubstr("efforts  4 of 5\n    fail          torque.pointwise  2"),
+                    HasSubstr("\n    fail          torque.maximal    3"), Not(HasSubstr("fail          torque.twin")),
+                    HasSubstr("\n                  the same: acceleration.pointwise, torque.twin\n")));
+  EXPECT_THAT(report::validationText(result, false, true),
+              AllOf(HasSubstr("fail          torque.twin"), Not(HasSubstr("the same"))));
+}
+
+TEST(TerminalText, spellsUnitsInOneWay) {
+  ValidationResult result = of({judged("torque.pointwise", 2, 1, "N m", "", "off by 2 N m")});
+  result.cause_words = {"", "a constant offset: +3 N m on leg 5"};
+  EXPECT_THAT(report::validationText(result, false) + report::quietText(result, false),
+              AllOf(HasSubstr("+3 N·m on leg 5"), HasSubstr("off by 2 N·m"), Not(HasSubstr("N m"))));
+}
+
+TEST(BlindText, namesTheBodiesOfOneMistakeTogether) {
+  const auto term = [](const char* mistake, const char* body) {
+    return BlindSpot{mistake, {}, {CauseKind::missing_term, "spin", body}};
+  };
+  const auto number = [](const char* mistake, const char* body) {
+    return BlindSpot{mistake, {}, {CauseKind::parameter, "", body}};
+  };
+  const std::vector<BlindSpot> blind = {term("the spin is left out", "all"),
+                                        term("the spin of 'a' is left out", "a"),
+                                        term("the spin of 'b' is left out", "b"),
+                                        number("the inertia xx of 'a' is 1.1 instead of 1", "a"),
+                                        number("the inertia xx of 'b' is 3 instead of 2", "b"),
+                                        number("the mass of 'b' is 3 instead of 2", "b")};
+  const std::vector<BlindSpot> said = report::alikeAsOne(blind);
+  ASSERT_EQ(said.size(), 3u);
+  EXPECT_EQ(said[0].mistake, "the spin is left out (also that of 'a', 'b' alone)");
+  EXPECT_EQ(said[1].mistake, "the inertia xx of 'a', 'b'");
+  EXPECT_EQ(said[2].mistake, "the mass of 'b' is 3 instead of 2");
+  EXPECT_THAT(report::blindText(blind), HasSubstr("  - and 1 more: --json"));
 }
 
 TEST(TerminalText, saysNothingOfMotorsThatAreRight) {

@@ -2,7 +2,7 @@
 // usage: node pages_browser_test.mjs SAMPLES_DIR PACKAGE_DIR CHROMIUM
 import assert from "node:assert/strict";
 import { after, afterEach, before, test } from "node:test";
-import { assertQuietAndOffline, close, closePages, colorsOf, launch, opened, seriousFindings } from "../browser/pages.mjs";
+import { assertQuietAndOffline, close, closePages, colorsOf, cutTexts, launch, opened, seriousFindings } from "../browser/pages.mjs";
 
 before(launch);
 after(close);
@@ -128,10 +128,26 @@ test("a suite's reports lead back to it, a report alone nowhere", async () => {
   assert.equal(await alone.page.locator("a[href*='index.html']").count(), 0);
 });
 
-for (const file of ["comparison/compare.html", "prove.html", "weak.html", "sweep/report.html"])
-  test(`axe finds nothing serious in ${file}, light or dark, and 400 pixels hold it`, async () => {
-    const { page, complaints } = await opened(file, { viewport: { width: 400, height: 800 } });
-    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 400);
+test("a text that its box hides is found", async () => {
+  const { page } = await opened("prove.html");
+  await page.evaluate(() => document.body.insertAdjacentHTML("beforeend", "<p style='width:3em;overflow:hidden;white-space:nowrap'>a text that is cut</p>"));
+  assert.deepEqual(await cutTexts(page), ["a text that is cut"]);
+});
+
+test("an index prints the colours of its checks, and no filter", async () => {
+  const { page } = await opened("index.html");
+  await page.emulateMedia({ media: "print" });
+  assert.equal(await page.locator(".filter").isVisible(), false);
+  assert.equal(await page.locator("td.cell.fail").first().evaluate((cell) => getComputedStyle(cell).printColorAdjust), "exact");
+});
+
+const kinds = ["index.html", "failed/report.html", "external/report.html", "fourbar/report.html", "engines/report.html", "comparison/compare.html",
+  "prove.html", "weak.html", "sweep/report.html", "view/UPS.html", "view/delta.html"];
+for (const file of kinds)
+  test(`axe finds nothing serious in ${file}, light or dark, and 390 pixels hold it with every text whole`, async () => {
+    const { page, complaints } = await opened(file, { viewport: { width: 390, height: 800 } });
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
+    assert.deepEqual(await cutTexts(page), []);
     assert.deepEqual(await seriousFindings(page), []);
     assert.deepEqual(complaints, []);
   });

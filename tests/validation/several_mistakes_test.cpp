@@ -209,7 +209,7 @@ TEST(SeveralMistakes, areRankedWhereNothingExplainsAll) {
   for (std::size_t k = 0; k < efforts.size(); ++k) efforts[k](3) += 2 * std::sin(0.7 * static_cast<double>(k * k));
   const Diagnosis said = platform().said(efforts);
   EXPECT_FALSE(said.named) << said.cause;
-  EXPECT_THAT(said.cause, HasSubstr("; next, "));
+  EXPECT_THAT(said.cause, HasSubstr(". Next: "));
   ASSERT_GE(said.others.size(), 2U);
   EXPECT_GE(said.others[0].explained, said.others[1].explained);
 }

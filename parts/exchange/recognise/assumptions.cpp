@@ -18,8 +18,9 @@ std::string cut(const std::string& text) { return text.size() <= most_bytes ? te
 }  // namespace
 
 std::string inWords(const Assumption& assumption) {
-  return fmt::format("{}{}: {} ({:.4g} {})", assumption.warning ? "warning: " : "", shown(assumption.where, 200),
-                     shown(assumption.what, 300), assumption.size, assumption.unit);
+  const std::string unit = assumption.unit == "1" ? "" : " " + assumption.unit;
+  return fmt::format("{}{}: {} ({:.4g}{})", assumption.warning ? "warning: " : "", shown(assumption.where, 200),
+                     shown(assumption.what, 300), assumption.size, unit);
 }
 
 std::string listed(const std::vector<std::string>& words) {
