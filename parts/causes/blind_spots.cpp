@@ -7,9 +7,7 @@
 #include <map>
 #include <numeric>
 #include <set>
-#include <stdexcept>
 
-#include "nocsolver/errors.h"
 #include "parts/causes/fits.h"
 #include "parts/causes/tried_causes.h"
 #include "validation/blind_spots.h"
@@ -57,15 +55,13 @@ void tryCause(const Cause& cause, const Manipulator& machine, const std::vector<
   if (named->expected && named->expected == named->found) return;  // a zero without a size
   NamedCause without_spread = *named;
   without_spread.uncertainty.reset();
-  try {
-    const EffortsOf efforts = cause.solver(*cause.scenario, x);
-    out.tryOut(cause.words(x, 0), without_spread,
-               [&](std::size_t k) -> Eigen::VectorXd { return efforts(motions[k]); });
-  } catch (const PoseError&) {
-    out.shows(*named);
-  } catch (const std::invalid_argument&) {
-    out.shows(*named);
-  }
+  const bool is_possible = unlessRefused([&] {
+                             const EffortsOf efforts = cause.solver(*cause.scenario, x);
+                             out.tryOut(cause.words(x, 0), without_spread,
+                                        [&](std::size_t k) -> Eigen::VectorXd { return efforts(motions[k]); });
+                             return true;
+                           }).has_value();
+  if (!is_possible) out.shows(*named);
 }
 
 void tryTerms(const Scenario& scenario, const std::vector<Motion<double>>& motions, BlindSpots& out) {

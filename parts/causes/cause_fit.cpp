@@ -1,14 +1,8 @@
 #include "parts/causes/fits.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
-#include <utility>
-
-#include "nocsolver/errors.h"
 
 namespace ursula {
 namespace {
@@ -70,6 +64,8 @@ class Fit {
     Hypothesis out{cause_.words(x_, deviation), norm(left) / data_.norm(), cause_.fitted ? 1 : 0};
     out.beyond = beyond(left);
     if (cause_.named) out.named = cause_.named(x_, deviation);
+    if (cause_.fitted)
+      out.says = [words = cause_.words, x = x_, deviation](double wider) { return words(x, wider * deviation); };
     if (cause_.is_possible) out.is_possible = cause_.is_possible(x_);
     return out;
   }
@@ -87,12 +83,7 @@ class Fit {
 
   /// Returns nullopt if the cause has no torques.
   std::optional<Rows> torquesAt(double at) const {
-    try {
-      return cause_.torques(at, data_.motions);
-    } catch (const PoseError&) {
-    } catch (const std::invalid_argument&) {
-    }
-    return std::nullopt;
+    return unlessRefused([&] { return cause_.torques(at, data_.motions); });
   }
 
   Rows remaining(double at) const {

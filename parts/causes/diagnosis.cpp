@@ -255,13 +255,7 @@ void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result) {
   result.causes_together = diagnosis.together;
   result.terms = diagnosis.terms;
   nameState(result);
-  result.findings.push_back({"torques that are off", diagnosis.deviation});
-  result.findings.push_back({"likely cause", result.cause_words.cause});
-  const bool likely = result.cause_words.claim == CauseClaim::likely;
-  for (Check& check : result.checks)
-    if (check.verdict == Verdict::fail)
-      check.off =
-          fmt::format("Off: {}{}{}", diagnosis.summary, likely ? ". Likely cause: " : ": ", result.cause_words.cause);
+  sayCause(diagnosis.summary, result);
 }
 
 }  // namespace ursula

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <string>
 
 #include "parts/causes/tried_causes.h"
 #include "validation/limits/conditioning.h"

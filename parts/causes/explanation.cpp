@@ -173,6 +173,15 @@ bool isNoise(const TorqueResidual& data) {
   return rows >= 16 && std::abs(along / all) <= std::min(0.3, 3 / std::sqrt(static_cast<double>(rows)));
 }
 
+void sayCause(const std::string& off, ValidationResult& result) {
+  const CauseWords& words = result.cause_words;
+  result.findings.push_back({"torques that are off", words.off});
+  result.findings.push_back({"likely cause", words.cause});
+  const char* what = words.claim == CauseClaim::likely ? ". Likely cause: " : ": ";
+  for (Check& check : result.checks)
+    if (check.verdict == Verdict::fail) check.off = "Off: " + off + what + words.cause;
+}
+
 void nameState(ValidationResult& result) {
   const auto repeat = std::find_if(result.terms.begin(), result.terms.end(),
                                    [](const TermError& each) { return each.term == repeat_term; });

@@ -54,6 +54,9 @@ Explanation severalMistakes(const Scenario& scenario, const TorqueResidual& data
 /// deviations, and small. Few instants of a smooth deviation may be within the deviations alone.
 bool isNoise(const TorqueResidual& data);
 
+/// Says what is off, as in `result.cause_words`, in findings and at each check that fails; `off` is its short form.
+void sayCause(const std::string& off, ValidationResult& result);
+
 /// Names the state of a solver that answers the same question differently; it precedes every other cause.
 void nameState(ValidationResult& result);
 

@@ -40,6 +40,19 @@ struct TorqueTerm {
 std::vector<TorqueTerm> torqueTerms(const Scenario& scenario, const std::vector<Motion<double>>& motions,
                                     const std::vector<Vector6d>& exact);
 
+/// How far the efforts found of motor i are from ± those right of motor j.
+struct MotorPairs {
+  Eigen::MatrixXd sign, cost;
+
+  /// One motor in each row.
+  MotorPairs(const Eigen::MatrixXd& found, const Eigen::MatrixXd& right);
+  double signAt(std::size_t i, std::size_t j) const {
+    return sign(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  }
+  /// The order of least cost; of many motors each takes the nearest.
+  std::vector<std::size_t> best(double& least) const;
+};
+
 /// Tries every order of the legs with the best signs, in the unit that the torques' size suggests. Returns nullopt if
 /// neither order nor signs differ.
 std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data);

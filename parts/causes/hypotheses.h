@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -66,6 +67,8 @@ struct Hypothesis {
   std::optional<NamedCause> named = {};                     ///< nullopt if the contract has no name for it
   bool is_possible = true;                                  ///< whether bodies can have the fitted number
   double of_found = 1;                                      ///< ‖residual − predicted‖ / ‖subject's torques‖
+  /// The text for an uncertainty that is so many times as large; empty if it says none.
+  std::function<std::string(double wider)> says = {};
   double explained() const { return 1 - unexplained; }
 };
 

@@ -1,6 +1,5 @@
 #include <functional>
 
-#include "nocsolver/errors.h"
 #include "parts/causes/fits.h"
 #include "parts/causes/tried_causes.h"
 #include "parts/wrong_formulas/wrong_noc.h"
@@ -145,15 +144,14 @@ std::vector<TorqueTerm> torqueTerms(const Scenario& scenario, const std::vector<
                                     const std::vector<Vector6d>& exact) {
   std::vector<TorqueTerm> out;
   for (TermRow& row : termsOf(scenario)) {
-    try {
-      const EffortsOf without = row.without(scenario);
-      const double sign = row.term.fixed ? -1 : 1;  // what a printed formula adds
-      for (std::size_t k = 0; k < exact.size(); ++k)
-        row.term.torques.emplace_back(sign * (exact[k] - without(motions[k])));
-      out.push_back(std::move(row.term));
-    } catch (const PoseError&) {
-    } catch (const std::invalid_argument&) {
-    }
+    const bool has_efforts = unlessRefused([&] {
+                               const EffortsOf without = row.without(scenario);
+                               const double sign = row.term.fixed ? -1 : 1;  // what a printed formula adds
+                               for (std::size_t k = 0; k < exact.size(); ++k)
+                                 row.term.torques.emplace_back(sign * (exact[k] - without(motions[k])));
+                               return true;
+                             }).has_value();
+    if (has_efforts) out.push_back(std::move(row.term));
   }
   return out;
 }

@@ -2,8 +2,6 @@
 
 #include "validation/likely_cause.h"
 
-#include <utility>
-
 #include "parts/causes/diagnosis.h"
 #include "parts/causes/places.h"
 

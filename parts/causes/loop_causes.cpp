@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <string>
 #include <utility>
 
 #include "base/dense.h"

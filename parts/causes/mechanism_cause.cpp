@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "parts/causes/explanation.h"
 #include "parts/causes/mechanism_tried.h"
 #include "validation/mechanism/validate_mechanism.h"
 
@@ -11,12 +12,9 @@ namespace ursula {
 namespace mechanisms {
 namespace {
 
-/// An explanation leaves at most these multiples of the limits everywhere (one for the given efforts, one for the
-/// cause's), and less than chance would. Another one that leaves little more is as good.
-constexpr double may_be_beyond = 2, may_be_chance = 0.1, as_good = 6;
 /// A likely explanation of one part leaves less than this share of the deviation; one that is listed leaves less.
 constexpr double may_remain = 0.01, worth_listing = 0.9;
-constexpr std::size_t most_instants = 300, most_listed = 4, most_ranked = 3, least_instants = 4;
+constexpr std::size_t most_instants = 300, most_ranked = 3, least_instants = 4;
 
 EffortResidual residualOf(const MechanismEvidence& evidence) {
   EffortResidual out;
@@ -53,67 +51,6 @@ bool isAtRest(const EffortResidual& data) {
   return std::all_of(data.instants.begin(), data.instants.end(), [&](const Instant& each) {
     return each.motion.q == first.motion.q && each.motion.qddot == first.motion.qddot;
   });
-}
-
-bool explainsAll(const Fitted& one, double beyond = may_be_beyond) {
-  return one.beyond <= beyond && one.unexplained <= may_be_chance && (one.of_found <= may_be_chance || one.beyond <= 1);
-}
-
-/// "body.crank.inertia" of "body.crank.inertia.xx" and of itself; empty for numbers that are no entries.
-std::string vectorOf(const NamedCause& cause) {
-  const std::string owner = "body." + cause.body + ".";
-  for (const char* key : {"inertia", "center_of_mass"})
-    if (cause.parameter.rfind(owner + key, 0) == 0) return owner + key;
-  return "";
-}
-
-/// Whether both are entries of one vector or tensor, of which this motion shows one number alone.
-bool areOneVector(const NamedCause& a, const NamedCause& b) {
-  return a.kind == CauseKind::parameter && b.kind == a.kind && !vectorOf(a).empty() && vectorOf(a) == vectorOf(b);
-}
-
-/// Whether both are one mistake: the same term, of one or of all where the others make no difference.
-bool areOneMistake(const NamedCause& a, const NamedCause& b) {
-  if (a.kind != b.kind || a.kind == CauseKind::parameter) return false;
-  const auto isOne = [](const std::string& body) { return !body.empty() && body != "all"; };
-  if (a.joint != b.joint && !a.joint.empty() && !b.joint.empty()) return false;
-  if (a.body != b.body && isOne(a.body) && isOne(b.body)) return false;
-  const auto of_velocities = [](const NamedCause& each) {
-    return each.term == "coriolis" || each.term == "centripetal" || each.term == "gyroscopic";
-  };
-  if (a.kind == CauseKind::missing_term && of_velocities(a) && of_velocities(b))
-    return a.term == b.term || a.body == b.body;
-  if (a.kind == CauseKind::scale || a.kind == CauseKind::offset)
-    return a.term == b.term && a.body == b.body && a.motor == b.motor;
-  return a.term == b.term;
-}
-
-/// Whether a tie is with a rarer mistake: another density of the same body, or of all where nothing else acts.
-bool isRarer(const NamedCause& first, const NamedCause& other) {
-  const auto isOfAll = [](const NamedCause& each, const char* term) { return each.term == term && each.body == "all"; };
-  if (first.kind != CauseKind::parameter && isOfAll(first, "") && isOfAll(other, "inertia")) return true;
-  return first.kind == CauseKind::parameter && other.kind == CauseKind::scale && other.term == "inertia" &&
-         first.body == other.body;
-}
-
-NamedCause withShare(const Fitted& one) {
-  NamedCause out = one.named;
-  out.explained = std::clamp(1 - one.unexplained * one.unexplained, 0.0, 1.0);
-  return out;
-}
-
-std::string percentOf(const Fitted& one) {
-  const double explained = 1 - one.unexplained * one.unexplained;
-  if (explained > 0.999999) return "more than 99.9999 % of the deviation";
-  return fmt::format("{:.{}f} % of the deviation", 100 * std::max(0.0, explained), explained > 0.99 ? 4 : 0);
-}
-
-std::string othersIn(const std::vector<const Fitted*>& others) {
-  std::string out;
-  for (std::size_t i = 0; i < others.size() && i < most_listed; ++i)
-    out += (i == 0 ? "; as well explained by: " : "; ") + inWords(*others[i]);
-  if (others.size() > most_listed) out += fmt::format("; and {} more", others.size() - most_listed);
-  return out;
 }
 
 /// Whether every value is one of few digits, and the right efforts are near enough to it.
@@ -241,38 +178,18 @@ std::vector<Fitted> fittedCauses(const EffortResidual& data) {
   return out;
 }
 
-bool nameAll(const std::vector<Fitted>& fitted, ValidationResult& result) {
-  const auto found = std::find_if(fitted.begin(), fitted.end(), [](const Fitted& one) { return explainsAll(one); });
-  if (found == fitted.end()) return false;
-  Fitted first = *found;
-  std::vector<const Fitted*> others;
-  for (const Fitted& one : fitted) {
-    if (&one == &*found || one.numbers > first.numbers || !explainsAll(one, as_good)) continue;
-    if (isRarer(first.named, one.named)) continue;
-    if (areOneVector(first.named, one.named)) {
-      first.named.parameter = vectorOf(first.named);
-      first.named.expected = first.named.found = first.named.uncertainty = std::nullopt;
-      continue;
-    }
-    if (!areOneMistake(first.named, one.named)) {
-      others.push_back(&one);
-      continue;
-    }
-    if (one.named.body != first.named.body) first.named.body.clear();
-    if (one.named.joint != first.named.joint && one.named.body != "all") first.named.joint.clear();
-    if (one.detail != first.detail) first.detail.clear();
-  }
-  result.cause_words.claim = CauseClaim::likely;
-  result.cause_words.cause = fmt::format("{}, which explains {}{}", inWords(first), percentOf(first), othersIn(others));
-  if (others.empty()) {
-    result.cause = withShare(first);
-    return true;
-  }
-  result.causes.push_back(withShare(first));
-  for (const Fitted* one : others) result.causes.push_back(withShare(*one));
-  return true;
+namespace {
+
+/// Names a place or an axis of a joint if no other mistake explains everything.
+bool nameGeometry(const EffortResidual& data, const std::vector<Fitted>& others, ValidationResult& result) {
+  if (others.empty()) return false;
+  std::vector<Fitted> all = fittedGeometry(data);
+  all.insert(all.end(), others.begin(), others.end());
+  std::stable_sort(all.begin(), all.end(), [](const Fitted& a, const Fitted& b) { return a.numbers < b.numbers; });
+  return nameAll(all, result);
 }
 
+}  // namespace
 }  // namespace mechanisms
 
 AddMechanismCause addMechanismCause;
@@ -288,17 +205,11 @@ void addMechanismCause(const MechanismScenario&, const MechanismEvidence& eviden
     if (data.instants.size() >= least_instants && !isAtRest(data)) fitted = fittedCauses(data);
     const auto least = std::min_element(fitted.begin(), fitted.end(),
                                         [](const Fitted& a, const Fitted& b) { return a.beyond < b.beyond; });
-    if (!nameAll(fitted, result) && !(least != fitted.end() && nameSeveral(data, least->beyond, result)) &&
-        !nameWindow(data, result))
+    if (!nameAll(fitted, result) && !nameGeometry(data, fitted, result) &&
+        !(least != fitted.end() && nameSeveral(data, least->beyond, result)) && !nameWindow(data, result))
       listParts(fitted, data, result);
   }
-  result.findings.push_back({"torques that are off", result.cause_words.off});
-  result.findings.push_back({"likely cause", result.cause_words.cause});
-  const bool likely = result.cause_words.claim == CauseClaim::likely;
-  for (Check& check : result.checks)
-    if (check.verdict == Verdict::fail)
-      check.off = fmt::format("Off: {}{}{}", result.cause_words.off, likely ? ". Likely cause: " : ": ",
-                              result.cause_words.cause);
+  sayCause(result.cause_words.off, result);
 }
 
 }  // namespace ursula

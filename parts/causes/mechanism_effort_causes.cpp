@@ -1,16 +1,11 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include "parts/causes/hypotheses.h"
+#include "parts/causes/fits.h"
 #include "parts/causes/mechanism_tried.h"
 
 namespace ursula::mechanisms {
 namespace {
-
-using Order = std::vector<std::size_t>;
 
 /// The efforts of one motor, of all instants.
 VectorXd ofMotor(const EffortResidual& data, const VectorXd& all, std::size_t k) {
@@ -32,53 +27,18 @@ void nameThem(const EffortResidual& data, const std::vector<int>& motors, NamedC
     for (const int motor : motors) cause.legs.push_back(motor + 1);
 }
 
-/// How far the efforts found of motor i are from ± those right of motor j.
-struct MotorPairs {
-  MatrixXd sign, cost;
-
-  explicit MotorPairs(const EffortResidual& data) : sign(data.motors, data.motors), cost(data.motors, data.motors) {
-    for (Eigen::Index i = 0; i < data.motors; ++i)
-      for (Eigen::Index j = 0; j < data.motors; ++j) {
-        const VectorXd found = ofMotor(data, data.found, i);
-        const VectorXd right = ofMotor(data, data.noc, j);
-        const double plus = (found - right).squaredNorm(), minus = (found + right).squaredNorm();
-        sign(i, j) = plus <= minus ? 1 : -1;
-        cost(i, j) = std::min(plus, minus);
-      }
-  }
-
-  /// The order of least cost; of many motors each takes the nearest.
-  Order best() const {
-    Order from(cost.rows()), out;
-    std::iota(from.begin(), from.end(), std::size_t{0});
-    constexpr Eigen::Index most = 7;
-    if (cost.rows() > most) {
-      for (Eigen::Index i = 0; i < cost.rows(); ++i) {
-        Eigen::Index nearest = 0;
-        cost.row(i).minCoeff(&nearest);
-        out.push_back(nearest);
-      }
-      return std::is_permutation(out.begin(), out.end(), from.begin()) ? out : from;
-    }
-    double least = HUGE_VAL;
-    do {
-      double sum = 0;
-      for (std::size_t i = 0; i < from.size(); ++i)
-        sum += cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(from[i]));
-      if (sum < least) out = from, least = sum;
-    } while (std::next_permutation(from.begin(), from.end()));
-    return out;
-  }
-};
-
 void addOrder(const EffortResidual& data, std::vector<Tried>& out) {
-  const MotorPairs pairs(data);
-  const Order order = pairs.best();
+  const auto rowsOf = [&](const VectorXd& all) -> MatrixXd {
+    return Eigen::Map<const MatrixXd>(all.data(), data.motors, all.size() / data.motors);
+  };
+  const MotorPairs pairs(rowsOf(data.found), rowsOf(data.noc));
+  double least = 0;
+  const std::vector<std::size_t> order = pairs.best(least);
   VectorXd efforts = data.noc;
   std::vector<int> flipped;
   bool is_order = false;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const double sign = pairs.sign(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(order[i]));
+    const double sign = pairs.signAt(i, order[i]);
     setMotor(data, i, sign * ofMotor(data, data.noc, order[i]), efforts);
     is_order = is_order || order[i] != i;
     if (sign < 0) flipped.push_back(static_cast<int>(i));

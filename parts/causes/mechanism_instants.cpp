@@ -177,12 +177,15 @@ FileTree::FileTree(const Mechanism& mechanism)
            std::all_of(mechanism.motors().begin(), mechanism.motors().end(), [&](std::size_t j) { return holds(j); });
 }
 
+bool FileTree::isBefore(std::size_t joint, std::size_t body) const {
+  return std::find(path_to_[body].begin(), path_to_[body].end(), joint) != path_to_[body].end();
+}
+
 MatrixXd FileTree::jacobian(const Instant& at, std::size_t body, const Vector3d& point) const {
   MatrixXd out = MatrixXd::Zero(6, static_cast<Eigen::Index>(at.coordinates.size()));
-  const std::vector<std::size_t>& path = path_to_[body];
   for (std::size_t c = 0; c < at.coordinates.size(); ++c) {
     const Coordinate& each = at.coordinates[c];
-    if (std::find(path.begin(), path.end(), each.joint) == path.end()) continue;
+    if (!isBefore(each.joint, body)) continue;
     const auto column = static_cast<Eigen::Index>(c);
     const Vector3d axis = sign_[each.joint] * each.axis;
     if (each.slides)

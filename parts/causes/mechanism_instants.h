@@ -51,6 +51,10 @@ class FileTree {
   bool isWhole() const { return whole_; }
   /// Whether a joint is in the tree.
   bool holds(std::size_t joint) const { return sign_[joint] != 0; }
+  /// Whether the child of a joint is nearer to the ground than its parent.
+  bool isReversed(std::size_t joint) const { return sign_[joint] < 0; }
+  /// Whether a joint is on the way from the ground to a body.
+  bool isBefore(std::size_t joint, std::size_t body) const;
   /// J of a body in this tree, 6 × coordinates of the instant: t = J u; zero for coordinates that are cut.
   MatrixXd jacobian(const Instant& at, std::size_t body) const;
   /// The same for the twist [ω; v] of a body's point.

@@ -110,6 +110,60 @@ void addDirectFriction(const EffortResidual& data, std::vector<Tried>& out) {
   }
 }
 
+/// Coulomb friction with the rate's sign, without the smoothing about rest; of one joint, and of all.
+void addSharpFriction(const EffortResidual& data, std::vector<Tried>& out) {
+  const auto sharper = [](const MechanismJoint& j, const Coordinate& c) {
+    const double sign = c.rate > 0 ? 1 : c.rate < 0 ? -1 : 0;
+    return j.friction == 0 ? 0 : j.friction * sign - coulombOf(j, c);
+  };
+  VectorXd all = VectorXd::Zero(data.noc.size());
+  std::size_t count = 0;
+  for (std::size_t j = 0; j < data.mechanism->joints().size(); ++j) {
+    const MechanismJoint& joint = data.mechanism->joints()[j];
+    if (joint.friction == 0) continue;
+    const VectorXd change = jointEfforts(data, j, sharper);
+    all += change, ++count;
+    NamedCause named{CauseKind::parameter, "friction"};
+    named.joint = joint.name;
+    named.parameter = "joint." + joint.name + ".smoothing_speed";
+    named.unit = joint.slides() ? "m/s" : "rad/s";
+    named.expected = joint.smoothing(), named.found = 0;
+    addFixed(out, named, change);
+  }
+  if (count > 1) addFixed(out, {CauseKind::parameter, "friction", "all", "joint.smoothing_speed"}, all);
+}
+
+/// 2 ω × v of slides left out of the acceleration of the body that slides, and perhaps of all that hangs on it; of one
+/// slide, and of all.
+void addSlidesCoriolis(const EffortResidual& data, std::vector<Tried>& out) {
+  const Mechanism& mechanism = *data.mechanism;
+  const FileTree tree(mechanism);
+  constexpr const char* detail = "the Coriolis acceleration of what slides";
+  for (const bool with_rest : {true, false}) {
+    VectorXd all = VectorXd::Zero(data.noc.size());
+    std::size_t count = 0;
+    for (std::size_t j = 0; j < mechanism.joints().size(); ++j) {
+      const MechanismJoint& joint = mechanism.joints()[j];
+      if (!joint.slides() || !tree.holds(j) || tree.isReversed(j)) continue;
+      const VectorXd change = data.each([&](const Instant& at) -> VectorXd {
+        VectorXd sum = VectorXd::Zero(data.motors);
+        const Vector3d omega = at.work.bodies[joint.parent].twist.head<3>();
+        for (const Coordinate& c : at.coordinates)
+          for (std::size_t b = 0; b < mechanism.bodies().size() && c.joint == j; ++b)
+            if (b == joint.child || (with_rest && tree.isBefore(j, b)))
+              sum -= mechanism.bodies()[b].mass * at.work.T[b].bottomRows<3>().transpose() * 2 * c.rate *
+                     omega.cross(c.axis);
+        return sum;
+      });
+      all += change, ++count;
+      NamedCause named{CauseKind::missing_term, "coriolis"};
+      named.joint = joint.name;
+      addFixed(out, named, change, detail);
+    }
+    if (count > 1) addFixed(out, {CauseKind::missing_term, "coriolis", "all"}, all, detail);
+  }
+}
+
 /// A number of a joint to which the efforts are proportional.
 struct JointNumber {
   const char* key;
@@ -158,6 +212,8 @@ void addNumber(const EffortResidual& data, std::size_t j, const JointNumber& num
 void addJointTerms(const EffortResidual& data, std::vector<Tried>& out) {
   for (const JointTerm& term : joint_terms) addTerm(data, term, out);
   addDirectFriction(data, out);
+  addSharpFriction(data, out);
+  addSlidesCoriolis(data, out);
 }
 
 void addJointNumbers(const EffortResidual& data, std::vector<Tried>& out) {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include "parts/causes/mechanism_tried.h"
@@ -13,7 +12,8 @@ constexpr std::size_t few_instants = 30;
 /// A single mistake that leaves fewer limits than this needs no second one.
 constexpr double far_beyond = 20;
 
-/// Some of the instants, at times later by `shift`, whose right efforts are computed again.
+}  // namespace
+
 EffortResidual picked(const EffortResidual& data, const std::vector<std::size_t>& rows, double shift) {
   EffortResidual out = data;
   out.t.clear(), out.instants.clear();
@@ -34,6 +34,8 @@ EffortResidual picked(const EffortResidual& data, const std::vector<std::size_t>
   }
   return out;
 }
+
+namespace {
 
 std::vector<std::size_t> rowsOf(const EffortResidual& data) {
   std::vector<std::size_t> out(data.t.size());
@@ -125,14 +127,16 @@ NameAlone nameAlone(const EffortResidual& data) {
     alone.found = data.noc + effect;
     alone.limit *=
         std::max(1.0, data.found.cwiseAbs().maxCoeff() / std::max(alone.found.cwiseAbs().maxCoeff(), 1e-300));
-    ValidationResult said;
-    if (!nameAll(fittedCauses(alone), said)) return std::nullopt;
-    const std::string& all = said.cause_words.cause;
-    const std::size_t others = all.find("; as well explained by: ");
-    const std::string words =
-        all.substr(0, all.find(", which explains")) + (others == std::string::npos ? "" : all.substr(others));
-    if (said.cause) return NamedAlone{*said.cause, words};
-    return NamedAlone{said.causes.front(), words, {said.causes.begin() + 1, said.causes.end()}, false};
+    const std::optional<Explained> all = explained(fittedCauses(alone));
+    if (!all) return std::nullopt;
+    const auto words = [first = all->first](double wider) {
+      Fitted one = first;
+      if (one.named.uncertainty) *one.named.uncertainty *= wider;
+      return inWords(one);
+    };
+    NamedAlone out{withShare(all->first), words, othersIn(all->others)};
+    for (const Fitted& one : all->others) out.ties.push_back(withShare(one));
+    return out;
   };
 }
 

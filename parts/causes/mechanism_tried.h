@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,8 +79,30 @@ void addScaledTerm(const NamedCause& term, const ChangeOf& part, const std::stri
 /// The efforts of all bodies and joints at an instant of the motion, of a machine that may have other numbers.
 VectorXd effortsOf(const Mechanism& mechanism, const Instant& at);
 
-/// All mistakes after their fits, those with fewest numbers first.
+/// Some of the instants, at times later by `shift`, whose right efforts are then computed again.
+EffortResidual picked(const EffortResidual& data, const std::vector<std::size_t>& rows, double shift);
+
+/// All mistakes but those of geometry after their fits, those with fewest numbers first.
 std::vector<Fitted> fittedCauses(const EffortResidual& data);
+
+/// Wrong places and axes of joints that explain the deviation at some instants, after their fits to all. The motion is
+/// solved again for each number of each.
+std::vector<Fitted> fittedGeometry(const EffortResidual& data);
+
+/// A mistake that explains everything, and those that explain it as well.
+struct Explained {
+  Fitted first;
+  std::vector<Fitted> others = {};
+};
+/// Returns the first of `fitted` that explains everything; nullopt if none does.
+std::optional<Explained> explained(const std::vector<Fitted>& fitted);
+
+/// The named cause with its share of the deviation's square.
+NamedCause withShare(const Fitted& one);
+/// "99.0945 % of the deviation".
+std::string percentOf(const Fitted& one);
+/// "; as well explained by: …"; empty without others.
+std::string othersIn(const std::vector<Fitted>& others);
 
 /// Names the cause that explains everything, or lists those that do; false if none does.
 bool nameAll(const std::vector<Fitted>& fitted, ValidationResult& result);

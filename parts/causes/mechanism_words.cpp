@@ -56,6 +56,9 @@ std::string numberWords(const std::string& key) {
   if (key.rfind("inertia.", 0) == 0) return "the inertia " + key.substr(8);
   if (key == "spring_reference") return "the spring's rest position";
   if (key == "friction") return "the Coulomb friction";
+  for (const char* vector : {"position", "axis"})
+    if (key.rfind(vector + std::string("."), 0) == 0)
+      return fmt::format("entry {} of the {}", "xyz"[key.back() - '0'], vector);
   return "the " + key;
 }
 
@@ -76,8 +79,11 @@ std::string parameterWords(const NamedCause& cause) {
     const bool one = cause.parameter.size() > std::string("mechanism.gravity").size();
     return (one ? fmt::format("entry {} of gravity", "xyz"[cause.parameter.back() - '0']) : "gravity") + wrong;
   }
+  if (cause.term == "friction")
+    return "the Coulomb friction" + ofOwner(cause) + " is not smoothed: it has the sign of the rate";
   const std::string owner = cause.joint.empty() ? "body." + cause.body + "." : "joint." + cause.joint + ".";
-  return numberWords(cause.parameter.substr(owner.size())) + ofOwner(cause) + wrong;
+  const std::string on = cause.joint.empty() || cause.body.empty() ? "" : " on '" + cause.body + "'";
+  return numberWords(cause.parameter.substr(owner.size())) + ofOwner(cause) + on + wrong;
 }
 
 std::string closureWords(const std::string& term) {

@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <limits>
 #include <memory>
 #include <tuple>
 #include <utility>

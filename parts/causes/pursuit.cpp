@@ -1,12 +1,8 @@
 #include "parts/causes/pursuit.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numeric>
 #include <set>
 
 namespace ursula {
@@ -23,9 +19,6 @@ constexpr double most_beyond = 2, by_chance = 0.1, much_more = 20, far_larger = 
 /// An effect that is smaller, relative to the efforts, is none; columns that differ less are one.
 constexpr double no_effect = 1e-9, one_column = 1e-13, nearly_one = 1e-10;
 constexpr std::size_t likely_sets = 80, best_sets = 24;
-constexpr Index most_permuted = 6;
-
-Index motorsOf(const OutputMistake& of) { return std::max({of.factor.size(), of.gain.size(), of.offset.size()}); }
 
 Mistakes without(const Mistakes& of, std::size_t member) {
   Mistakes out;
@@ -58,68 +51,15 @@ void keepBest(std::vector<Mistakes>& sets, std::size_t most) {
 
 }  // namespace
 
-VectorXd OutputMistake::of(const VectorXd& efforts, double x) const {
-  VectorXd out = efforts;
-  const Index n = motorsOf(*this);
-  for (Index at = 0; at < efforts.size(); at += n)
-    for (Index k = 0; k < n; ++k) {
-      double& one = out(at + k);
-      if (!from.empty()) one = efforts(at + from[k]);
-      if (factor.size() > 0) one *= factor(k);
-      if (gain.size() > 0) one *= 1 + x * gain(k);
-      if (offset.size() > 0) one += x * offset(k);
-    }
-  return out;
-}
-
-VectorXd OutputMistake::undone(const VectorXd& efforts) const {
-  VectorXd out = efforts;
-  const Index n = motorsOf(*this);
-  for (Index at = 0; at < efforts.size(); at += n)
-    for (Index k = 0; k < n; ++k) out(at + (from.empty() ? k : from[k])) = efforts(at + k) / factor(k);
-  return out;
-}
-
 Pursuit::Pursuit(std::vector<Suspect> suspects, VectorXd right, VectorXd found, VectorXd limit, Index motors,
                  EffortsTogether together)
     : suspects_(std::move(suspects)),
+      outputs_(outputMistakes(motors, discrete_)),
       right_(std::move(right)),
       found_(std::move(found)),
       limit_(std::move(limit)),
-      motors_(motors),
       together_(std::move(together)) {
-  addOutputs();
   setColumns();
-}
-
-/// Signs, units, and orders; of many motors those that exchange two. Then factors and offsets.
-void Pursuit::addOutputs() {
-  const Index n = motors_;
-  const VectorXd ones = VectorXd::Ones(n);
-  for (unsigned which = 1; n <= most_permuted && which < 1U << n; ++which) {
-    VectorXd signs = ones;
-    for (Index k = 0; k < n; ++k)
-      if ((which >> k & 1U) != 0) signs(k) = -1;
-    outputs_.push_back({{}, signs});
-  }
-  constexpr double g = 9.80665, degrees = 57.29577951308232, pound_foot = 1.3558179483314004;
-  for (const double unit : {1e3, 1e6, 1e2, 1e1, g, degrees, pound_foot, 4.4482216152605, 8.850745791327184})
-    for (const double factor : {unit, 1 / unit}) outputs_.push_back({{}, factor * ones});
-  std::vector<Index> own(n);
-  std::iota(own.begin(), own.end(), Index{0});
-  std::vector<Index> from = own;
-  while (n <= most_permuted && std::next_permutation(from.begin(), from.end())) outputs_.push_back({from, ones});
-  for (std::size_t i = 0; n > most_permuted && i < own.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      outputs_.push_back({own, ones});
-      std::swap(outputs_.back().from[i], outputs_.back().from[j]);
-    }
-  discrete_ = outputs_.size();
-  for (Index k = 0; k < n; ++k) {
-    outputs_.push_back({{}, {}, {}, VectorXd::Unit(n, k)});
-    if (n > 1) outputs_.push_back({{}, {}, VectorXd::Unit(n, k)});
-  }
-  outputs_.push_back({{}, {}, ones});
 }
 
 /// Columns of suspects with an effect of their own, then of outputs with a number.
@@ -247,6 +187,19 @@ std::vector<Mistakes> Pursuit::singles() const {
   return out;
 }
 
+/// An orthonormal basis of what a set's own numbers make of its efforts `base`, to first order.
+MatrixXd Pursuit::basisAt(const Mistakes& inner, const VectorXd& base) const {
+  MatrixXd slopes = MatrixXd::Zero(right_.size(), std::max<Index>(1, inner.x.size()));
+  for (Index k = 0; k < inner.x.size(); ++k) {
+    if (!hasNumber(inner.which[static_cast<std::size_t>(k)])) continue;
+    Mistakes near = inner;
+    near.x(k) += step(inner.which[static_cast<std::size_t>(k)]);
+    if (const std::optional<VectorXd> there = efforts(near, together_)) slopes.col(k) = (*there - base).normalized();
+  }
+  const Eigen::ColPivHouseholderQR<MatrixXd> factors(slopes);
+  return factors.householderQ() * MatrixXd::Identity(right_.size(), factors.rank());
+}
+
 /// Adds each further mistake by least squares, in which the start's own numbers are fitted again. What was done last is
 /// undone first.
 void Pursuit::extend(const Mistakes& start, std::vector<Mistakes>& out) const {
@@ -255,15 +208,7 @@ void Pursuit::extend(const Mistakes& start, std::vector<Mistakes>& out) const {
   const VectorXd target = is_last ? output(start.which.back()).undone(found_) : found_;
   const std::optional<VectorXd> base = inner.which.empty() ? right_ : efforts(inner, together_);
   if (!base) return;
-  MatrixXd slopes = MatrixXd::Zero(right_.size(), std::max<Index>(1, inner.x.size()));
-  for (Index k = 0; k < inner.x.size(); ++k) {
-    if (!hasNumber(inner.which[k])) continue;
-    Mistakes near = inner;
-    near.x(k) += step(inner.which[k]);
-    if (const std::optional<VectorXd> there = efforts(near, together_)) slopes.col(k) = (*there - *base).normalized();
-  }
-  const Eigen::ColPivHouseholderQR<MatrixXd> factors(slopes);
-  const MatrixXd Q = factors.householderQ() * MatrixXd::Identity(right_.size(), factors.rank());
+  const MatrixXd Q = basisAt(inner, *base);
   VectorXd residual = target - *base;
   residual -= Q * (Q.transpose() * residual);
   MatrixXd columns = columns_;

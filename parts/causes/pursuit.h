@@ -35,6 +35,9 @@ struct OutputMistake {
   Eigen::VectorXd undone(const Eigen::VectorXd& efforts) const;
 };
 
+/// Signs, units, and orders; of many motors those that exchange two. Then, from `discrete` on, factors and offsets.
+std::vector<OutputMistake> outputMistakes(Eigen::Index motors, std::size_t& discrete);
+
 /// Several mistakes with their numbers, zero for those without one.
 struct Mistakes {
   std::vector<std::size_t> which;  ///< suspects, then outputs, which come after all suspects
@@ -72,7 +75,6 @@ class Pursuit {
   NumbersDoubt doubt(const Mistakes& mistakes) const;
 
  private:
-  void addOutputs();
   void setColumns();
   bool isOutput(std::size_t place) const { return place >= suspects_.size(); }
   const OutputMistake& output(std::size_t place) const { return outputs_[place - suspects_.size()]; }
@@ -83,16 +85,16 @@ class Pursuit {
   std::vector<Eigen::Index> numbersOf(const Mistakes& mistakes) const;
   void improve(Mistakes& mistakes, int steps) const;
   std::vector<Mistakes> singles() const;
+  Eigen::MatrixXd basisAt(const Mistakes& inner, const Eigen::VectorXd& base) const;
   void extend(const Mistakes& start, std::vector<Mistakes>& out) const;
   std::vector<Mistakes> extended(const std::vector<Mistakes>& smaller) const;
   bool isEachNeeded(const Mistakes& mistakes) const;
   bool areAlike(std::size_t i, std::size_t j) const;
 
   std::vector<Suspect> suspects_;
+  std::size_t discrete_ = 0;            ///< the number of outputs without a number
   std::vector<OutputMistake> outputs_;  ///< those without a number come first
-  std::size_t discrete_ = 0;            ///< the number of those
   Eigen::VectorXd right_, found_, limit_;
-  Eigen::Index motors_;
   EffortsTogether together_;
   std::vector<std::size_t> places_;  ///< of the columns
   Eigen::MatrixXd columns_;          ///< effects to first order
@@ -106,12 +108,12 @@ struct SeveralNamed {
   bool is_sure = true;                ///< nothing else explains as much
 };
 
-/// The name of one mistake, in the contract's terms and in words, which say what explains as much.
+/// The name of one mistake, in the contract's terms and in words.
 struct NamedAlone {
   NamedCause cause;
-  std::string words;
-  std::vector<NamedCause> ties = {};
-  bool is_sure = true;
+  std::function<std::string(double wider)> words;  ///< for an uncertainty that is so many times as large
+  std::string others = {};                         ///< "; as well explained by: …", or empty
+  std::vector<NamedCause> ties = {};               ///< what explains as much
 };
 /// Names one mistake by what the efforts would be if it were the only one: right ones and `effect`. Returns nullopt if
 /// it has no name.

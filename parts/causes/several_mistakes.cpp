@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
-#include "nocsolver/errors.h"
 #include "parts/causes/explanation.h"
 #include "parts/causes/fits.h"
 #include "parts/causes/pursuit.h"
@@ -34,12 +32,7 @@ class Together {
 
   std::optional<VectorXd> operator()(const Motions& motions, const std::vector<std::size_t>& which,
                                      const VectorXd& x) const {
-    try {
-      return stacked(efforts(motions, which, x));
-    } catch (const PoseError&) {
-    } catch (const std::invalid_argument&) {
-    }
-    return std::nullopt;
+    return unlessRefused([&] { return stacked(efforts(motions, which, x)); });
   }
 
   EffortsTogether at(const Motions& motions) const {
@@ -91,15 +84,12 @@ std::vector<Cause> causesToPursue(const Scenario& scenario, bool along_motion) {
 
 VectorXd effectOf(const Cause& cause, const TorqueResidual& data, const VectorXd& right) {
   constexpr double step = 1e-5;
-  const VectorXd none = VectorXd::Constant(right.size(), NAN);
-  try {
+  const auto effect = [&]() -> VectorXd {
     if (!cause.fitted) return stacked(cause.torques(0, data.motions)) - right;
     if (cause.slope) return stacked(cause.slope(data.motions));
     return (stacked(cause.torques(step, data.motions)) - stacked(cause.torques(-step, data.motions))) / (2 * step);
-  } catch (const PoseError&) {
-  } catch (const std::invalid_argument&) {
-  }
-  return none;
+  };
+  return unlessRefused(effect).value_or(VectorXd::Constant(right.size(), NAN));
 }
 
 /// Without the ends of the motion, so that a delay has efforts.
@@ -123,11 +113,11 @@ NameAlone nameAlone(const Scenario& scenario, const TorqueResidual& data) {
     if (fitted.empty()) return std::nullopt;
     const std::vector<Hypothesis> best = bestOf(fitted);
     if (!explains(best.front()) || !best.front().named) return std::nullopt;
-    const Explanation said = named(best, alone, best.front().text);
-    if (said.named) return NamedAlone{*said.named, said.text};
+    const Explanation said = named(best, alone, "");
+    const auto words = [first = best.front()](double wider) { return first.says ? first.says(wider) : first.text; };
+    if (said.named) return NamedAlone{*said.named, words};
     if (said.others.empty()) return std::nullopt;
-    return NamedAlone{
-        said.others.front(), said.text + othersText(best), {said.others.begin() + 1, said.others.end()}, false};
+    return NamedAlone{said.others.front(), words, othersText(best), {said.others.begin() + 1, said.others.end()}};
   };
 }
 

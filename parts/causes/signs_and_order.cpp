@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -10,46 +9,8 @@
 namespace ursula {
 namespace {
 
-/// Entry i is the leg, 0-based, whose torques column i contains.
-using Order = PerMotor<std::size_t>;
+using Order = std::vector<std::size_t>;  ///< entry i is the leg, 0-based, whose torques column i contains
 constexpr std::size_t columns = motor_count;
-
-/// ‖τᵢ ∓ τⱼ‖² for leg i of the found torques and leg j of the exact ones, with the better sign.
-struct Pairing {
-  double sign[columns][columns], cost[columns][columns];
-
-  Pairing(const TorqueResidual& data, double unit) {
-    for (std::size_t i = 0; i < columns; ++i)
-      for (std::size_t j = 0; j < columns; ++j) {
-        const double plus = mismatch(data, i, j, unit), minus_cost = mismatch(data, i, j, -unit);
-        sign[i][j] = plus <= minus_cost ? 1 : -1;
-        cost[i][j] = std::min(plus, minus_cost);
-      }
-  }
-
-  /// The order with the least cost.
-  Order best(double& least) const {
-    Order from{}, out{};
-    std::iota(from.begin(), from.end(), 0);
-    least = HUGE_VAL;
-    do {
-      double sum = 0;
-      for (std::size_t i = 0; i < columns; ++i) sum += cost[i][from[i]];
-      if (sum < least) out = from, least = sum;
-    } while (std::next_permutation(from.begin(), from.end()));
-    return out;
-  }
-
- private:
-  static double mismatch(const TorqueResidual& data, std::size_t i, std::size_t j, double factor) {
-    double sum = 0;
-    for (std::size_t k = 0; k < data.exact.size(); ++k) {
-      const double left = data.found(k)(i) - factor * data.exact[k](j);
-      sum += left * left;
-    }
-    return sum;
-  }
-};
 
 /// "leg 3", "legs 1, 2 and 5", of the motors.
 std::string namesOf(const TorqueResidual& data, const std::vector<int>& motors) {
@@ -97,7 +58,50 @@ double unitFactor(const TorqueResidual& data) {
   return unitOf(factor, data.motors).empty() ? 1 : factor;
 }
 
+/// One motor in each row.
+Eigen::MatrixXd rowsOf(const std::vector<Vector6d>& all) {
+  Eigen::MatrixXd out(motor_count, static_cast<Eigen::Index>(all.size()));
+  for (std::size_t k = 0; k < all.size(); ++k) out.col(static_cast<Eigen::Index>(k)) = all[k];
+  return out;
+}
+
 }  // namespace
+
+MotorPairs::MotorPairs(const Eigen::MatrixXd& found, const Eigen::MatrixXd& right)
+    : sign(found.rows(), found.rows()), cost(found.rows(), found.rows()) {
+  for (Eigen::Index i = 0; i < found.rows(); ++i)
+    for (Eigen::Index j = 0; j < found.rows(); ++j) {
+      double plus = 0, minus = 0;
+      for (Eigen::Index k = 0; k < found.cols(); ++k) {
+        const double less = found(i, k) - right(j, k), more = found(i, k) + right(j, k);
+        plus += less * less, minus += more * more;
+      }
+      sign(i, j) = plus <= minus ? 1 : -1;
+      cost(i, j) = std::min(plus, minus);
+    }
+}
+
+Order MotorPairs::best(double& least) const {
+  constexpr Eigen::Index most = 7;
+  Order from(static_cast<std::size_t>(cost.rows())), out;
+  std::iota(from.begin(), from.end(), std::size_t{0});
+  least = HUGE_VAL;
+  if (cost.rows() > most) {
+    for (Eigen::Index i = 0; i < cost.rows(); ++i) {
+      Eigen::Index nearest = 0;
+      cost.row(i).minCoeff(&nearest);
+      out.push_back(static_cast<std::size_t>(nearest));
+    }
+    return std::is_permutation(out.begin(), out.end(), from.begin()) ? out : from;
+  }
+  do {
+    double sum = 0;
+    for (std::size_t i = 0; i < from.size(); ++i)
+      sum += cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(from[i]));
+    if (sum < least) out = from, least = sum;
+  } while (std::next_permutation(from.begin(), from.end()));
+  return out;
+}
 
 void nameMotors(const std::vector<int>& motors, NamedCause& cause) {
   if (motors.size() == 1) cause.motor = motors.front() + 1;
@@ -108,12 +112,14 @@ void nameMotors(const std::vector<int>& motors, NamedCause& cause) {
 
 std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data) {
   const double unit = unitFactor(data);
-  const Pairing pairs(data, unit);
+  std::vector<Vector6d> found;
+  for (std::size_t k = 0; k < data.exact.size(); ++k) found.push_back(data.found(k));
+  const MotorPairs pairs(rowsOf(found), unit * rowsOf(data.exact));
   double least = 0;
   const Order best = pairs.best(least);
   std::vector<int> flipped;
   for (std::size_t i = 0; i < columns; ++i)
-    if (pairs.sign[i][best[i]] < 0) flipped.push_back(static_cast<int>(i));
+    if (pairs.signAt(i, best[i]) < 0) flipped.push_back(static_cast<int>(i));
   std::string text = permutationText(data, best);
   const bool is_order = !text.empty();
   if (!is_order && flipped.empty()) return std::nullopt;  // a unit alone belongs to the scale hypothesis
@@ -122,7 +128,7 @@ std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data) {
   std::vector<Vector6d> left(data.exact.size());
   for (std::size_t k = 0; k < left.size(); ++k)
     for (std::size_t i = 0; i < columns; ++i)
-      left[k](i) = data.found(k)(i) - unit * pairs.sign[i][best[i]] * data.exact[k](best[i]);
+      left[k](i) = data.found(k)(i) - unit * pairs.signAt(i, best[i]) * data.exact[k](best[i]);
   Hypothesis out{text, std::sqrt(least) / data.norm(), 0};
   out.beyond = data.beyond(left) / std::max(1.0, unit);  // rounding grows with the torques
   out.named = NamedCause{is_order ? CauseKind::order : CauseKind::sign};
@@ -131,7 +137,7 @@ std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data) {
   else
     nameMotors(flipped, *out.named);
   if (is_order && !flipped.empty())
-    for (std::size_t i = 0; i < columns; ++i) out.named->signs.push_back(pairs.sign[i][best[i]] < 0 ? -1 : 1);
+    for (std::size_t i = 0; i < columns; ++i) out.named->signs.push_back(pairs.signAt(i, best[i]) < 0 ? -1 : 1);
   return out;
 }
 

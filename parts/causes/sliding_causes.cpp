@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <tuple>
-#include <utility>
 
 #include "parts/causes/tried_causes.h"
 

@@ -3,11 +3,13 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "model/scenario.h"
+#include "nocsolver/errors.h"
 #include "validation/subject/body_terms.h"
 #include "validation/verdict/result.h"
 
@@ -17,6 +19,17 @@ namespace ursula {
 
 /// The efforts that a solver gives for one motion, N·m or N. Throws PoseError if there are none.
 using EffortsOf = std::function<Vector6d(const Motion<double>&)>;
+
+/// What `run` returns; nullopt if it throws that there is no such machine or pose.
+template <class Run>
+auto unlessRefused(const Run& run) -> std::optional<decltype(run())> {
+  try {
+    return run();
+  } catch (const PoseError&) {
+  } catch (const std::invalid_argument&) {
+  }
+  return std::nullopt;
+}
 
 /// A possible difference in how torques were computed: another machine, another interpretation of the motion, an extra
 /// term. It has one fitted number x, which is zero without a difference, or none.

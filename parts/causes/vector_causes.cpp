@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "nocsolver/errors.h"
 #include "parts/causes/fits.h"
 #include "parts/causes/tied_parameters.h"
 #include "parts/causes/tried_causes.h"
@@ -68,18 +67,17 @@ class VectorFit {
   /// Stacked; infinite where the changed machine has no torques.
   Eigen::VectorXd remaining(const Vector3d& change) const {
     const auto rows = static_cast<Eigen::Index>(data_.motions.size());
-    Eigen::VectorXd out = Eigen::VectorXd::Constant(motor_count * rows, HUGE_VAL);
-    try {
+    const auto left = [&] {
       ManipulatorParameters machine = scenario_.manipulator->parameters();
       move(entries_, change, machine);
       const Subject noc = nocSubject(Manipulator(machine), scenario_.load);
+      Eigen::VectorXd out(motor_count * rows);
       for (Eigen::Index k = 0; k < rows; ++k) {
         out.segment<motor_count>(motor_count * k) = data_.found(k) - noc.torques(data_.motions[k]);
       }
-    } catch (const PoseError&) {
-    } catch (const std::invalid_argument&) {
-    }
-    return out;
+      return out;
+    };
+    return unlessRefused(left).value_or(Eigen::VectorXd::Constant(motor_count * rows, HUGE_VAL));
   }
 
   bool step() {

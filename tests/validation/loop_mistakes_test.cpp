@@ -93,5 +93,52 @@ TEST(LoopMistake, transmissionOfTheStartIsNamed) {
   EXPECT_EQ(result.cause->term, "constant");
 }
 
+/// Coulomb friction by the rate's sign differs from the smoothed law near rest alone.
+TEST(LoopMistake, frictionWithoutSmoothingIsNamed) {
+  const Machine machine("rps3");
+  const LoopSolver solver(machine.mechanism());
+  const LoopMotion motion(solver, *machine.scenario().trajectory);
+  std::vector<MotorEfforts> efforts = machine.efforts();
+  for (std::size_t i = 0; i < efforts.size(); ++i) {
+    const MotorMotion at = motion.trajectory().at(machine.instants()[i]);
+    for (Eigen::Index k = 0; k < at.q.size(); ++k) {
+      const MechanismJoint& joint = machine.mechanism().motor(static_cast<std::size_t>(k));
+      const double rate = at.qdot(k), sign = rate > 0 ? 1 : rate < 0 ? -1 : 0;
+      if (k == 0) efforts[i](k) += joint.friction * (sign - std::tanh(rate / joint.smoothing()));
+    }
+  }
+  const ValidationResult result = machine.judge(efforts);
+  ASSERT_TRUE(result.cause) << result.cause_words.cause;
+  EXPECT_EQ(result.cause->kind, CauseKind::parameter);
+  EXPECT_EQ(result.cause->joint, machine.mechanism().motor(0).name);
+  EXPECT_EQ(result.cause->parameter, "joint." + result.cause->joint + ".smoothing_speed");
+}
+
+/// 2 omega x v of each rod in its cylinder; the plate's own acceleration is right.
+TEST(LoopMistake, coriolisOfSlidesIsNamed) {
+  const Machine machine("rps3");
+  const LoopSolver solver(machine.mechanism());
+  const LoopMotion motion(solver, *machine.scenario().trajectory);
+  std::vector<MotorEfforts> efforts = machine.efforts();
+  LoopWork work;
+  for (std::size_t i = 0; i < efforts.size(); ++i) {
+    static_cast<void>(motion.inverseDynamics(machine.instants()[i], work));
+    const MotorMotion at = motion.trajectory().at(machine.instants()[i]);
+    for (std::size_t k = 0; k < machine.mechanism().motorCount(); ++k) {
+      const MechanismJoint& joint = machine.mechanism().motor(k);
+      const BodyState& cylinder = work.bodies[joint.parent];
+      const Vector3d omega = cylinder.twist.head<3>(), axis = cylinder.displacement.linear() * joint.axis[0];
+      const Vector3d left_out = 2 * at.qdot(static_cast<Eigen::Index>(k)) * omega.cross(axis);
+      efforts[i] -=
+          work.T[joint.child].bottomRows<3>().transpose() * (machine.mechanism().bodies()[joint.child].mass * left_out);
+    }
+  }
+  const ValidationResult result = machine.judge(efforts);
+  ASSERT_TRUE(result.cause) << result.cause_words.cause;
+  EXPECT_EQ(result.cause->kind, CauseKind::missing_term);
+  EXPECT_EQ(result.cause->term, "coriolis");
+  EXPECT_NE(result.cause_words.cause.find("what slides"), std::string::npos) << result.cause_words.cause;
+}
+
 }  // namespace
 }  // namespace ursula
