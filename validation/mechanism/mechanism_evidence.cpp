@@ -166,27 +166,55 @@ void addEngines(const std::vector<char>& idle, bool direct, LoopWork& work, cons
 }
 
 /// Asks the subject, or Simbody if the subject is the NOC, between the samples.
-void askBetween(const MechanismSubject& subject, const Deadline& deadline, MechanismEvidence& out) {
-  const LoopMotion& motion = *out.motion;
+std::vector<MechanismSample> between(const MechanismSubject& subject, const Deadline& deadline,
+                                     const MechanismEvidence& evidence) {
+  std::vector<MechanismSample> out;
+  const LoopMotion& motion = *evidence.motion;
   std::vector<double> dense = goldenInstants(motion.trajectory().duration(), subject.between);
   std::sort(dense.begin(), dense.end());
   std::vector<MotorEfforts> answers;
   if (subject.answers) answers = answersOf(subject, true, motion, dense, deadline);
-  SimbodyMechanism simbody(*out.scenario->mechanism);
+  SimbodyMechanism simbody(*evidence.scenario->mechanism);
   LoopWork work;
   for (std::size_t i = 0; i < dense.size(); ++i) {
     deadline.require();
     MechanismSample sample = nocAt(motion, dense[i], work);
     if (!subject.answers) simbody.place(sample.motion);
     sample.subject = subject.answers ? answers[i] : MotorEfforts(simbody.inverseDynamics());
-    out.between.push_back(std::move(sample));
+    out.push_back(std::move(sample));
   }
+  return out;
 }
 
 /// What the rounding of a simulator's accelerations makes of efforts.
 MotorEfforts roundedAccelerations(const MechanismEvidence& evidence, const MechanismSample& sample) {
   const MotorEfforts accelerations = (2 * evidence.level + evidence.acceleration_level) * evidence.response(sample);
   return inverseOf(sample.inverse_inertia).cwiseAbs() * accelerations;
+}
+
+/// What is judged at these instants; sets the largest effort of the evidence.
+std::vector<MechanismSample> samplesAt(const std::vector<double>& instants, const MechanismSubject& subject,
+                                       const Deadline& deadline, const std::function<void(double)>& progress,
+                                       MechanismEvidence& evidence) {
+  const LoopMotion& motion = *evidence.motion;
+  std::vector<MotorEfforts> answers;
+  if (subject.answers) answers = answersOf(subject, false, motion, instants, deadline);
+  const std::vector<char> idle = idleBodies(motion.solver());
+  LoopWork work;
+  std::vector<MechanismSample> out;
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    deadline.require();
+    if (progress) progress(static_cast<double>(i) / static_cast<double>(instants.size()));
+    MechanismSample sample = nocAt(motion, instants[i], work);
+    sample.subject = subject.given ? subject.given->efforts[i] : subject.answers ? answers[i] : sample.noc;
+    sample.given = subject.given ? subject.given->precision[i] : MotorEfforts::Zero(sample.noc.size());
+    if (subject.given && !subject.given->time_precision.empty())
+      sample.given += changeWithin(motion, instants[i], subject.given->time_precision[i], sample.noc);
+    addEngines(idle, subject.isNoc(), work, evidence, sample);
+    evidence.largest = std::max(evidence.largest, sample.noc.cwiseProduct(evidence.efforts_in).cwiseAbs().maxCoeff());
+    out.push_back(std::move(sample));
+  }
+  return out;
 }
 
 void setCover(const MechanismSubject& subject, const std::vector<double>& instants, MechanismEvidence& out) {
@@ -212,32 +240,30 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
   setUnits(mechanism, out);
   // Independent roundings grow as 4 root n: Higham and Mary 2019, as in Conditioning; n counts the steps of two trees.
   out.level = 4 * std::sqrt(12.0 * static_cast<double>(mechanism.bodies().size() + mechanism.joints().size()));
-  const std::vector<double> instants = judgedInstants(scenario, subject);
-  std::vector<MotorEfforts> answers;
-  if (subject.answers) answers = answersOf(subject, false, motion, instants, deadline);
   for (const MakeMechanismEngine& make : makers)
     if (auto engine = make(scenario)) out.engines.push_back(std::move(*engine));
-  const std::vector<char> idle = idleBodies(motion.solver());
-  LoopWork work;
-  for (std::size_t i = 0; i < instants.size(); ++i) {
-    deadline.require();
-    if (progress) progress(static_cast<double>(i) / static_cast<double>(instants.size()));
-    MechanismSample sample = nocAt(motion, instants[i], work);
-    sample.subject = subject.given ? subject.given->efforts[i] : subject.answers ? answers[i] : sample.noc;
-    sample.given = subject.given ? subject.given->precision[i] : MotorEfforts::Zero(sample.noc.size());
-    if (subject.given && !subject.given->time_precision.empty())
-      sample.given += changeWithin(motion, instants[i], subject.given->time_precision[i], sample.noc);
-    addEngines(idle, subject.isNoc(), work, out, sample);
-    out.largest = std::max(out.largest, sample.noc.cwiseProduct(out.efforts_in).cwiseAbs().maxCoeff());
-    out.samples.push_back(std::move(sample));
+  const std::vector<double> instants = judgedInstants(scenario, subject);
+  try {
+    out.samples = samplesAt(instants, subject, deadline, progress, out);
+    setCover(subject, instants, out);
+    if (!subject.given && subject.between > 0) out.between = between(subject, deadline, out);
+  } catch (const OutOfTime& over) {
+    out.out_of_time = over.what();
   }
-  setCover(subject, instants, out);
-  if (!subject.given && subject.between > 0) askBetween(subject, deadline, out);
+  if (out.samples.empty()) {
+    out.largest = 0;  // of a part of the motion
+    return out;
+  }
   measureLevels(out);
   if (subject.gives_accelerations)
     for (std::vector<MechanismSample>* samples : {&out.samples, &out.between})
       for (MechanismSample& sample : *samples) sample.given = roundedAccelerations(out, sample);
-  out.powers = powersOf(out, deadline);
+  if (!out.out_of_time.empty()) return out;
+  try {
+    out.powers = powersOf(out, deadline);
+  } catch (const OutOfTime& over) {
+    out.out_of_time = over.what();
+  }
   if (subject.isNoc()) out.invariances = askInvariances(scenario, motion);
   return out;
 }

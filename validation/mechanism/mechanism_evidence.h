@@ -163,7 +163,7 @@ struct MechanismEvidence {
   double levelOfSimbody() const;
 };
 
-/// Runs all experiments.
+/// Runs all experiments. After the deadline, it returns what was complete by then and why the rest is missing.
 MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopMotion& motion,
                                   const MechanismSubject& subject, const std::vector<MakeMechanismEngine>& makers,
                                   const Deadline& deadline, const std::function<void(double share)>& progress);
