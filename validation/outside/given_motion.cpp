@@ -83,7 +83,7 @@ EffortList differences(const EffortList& a, const EffortList& b) {
 using NeededBy = std::function<EffortsAt(std::size_t step)>;
 
 /// The error that the rows' distance leaves in the means `of_all`. Every second row changes them by d₂, every fourth by
-/// d₄ more: d₂²/d₄ is left if it shrinks as a smooth motion does, else d₂. All of the efforts if the
+/// d₄ more: d₂²/d₄ is left if it shrinks as a smooth motion does, else the larger. All of the efforts if the
 /// loops cannot follow every second row.
 EffortList leftBetween(const GivenRows& rows, const NeededBy& needed, double half, const std::vector<double>& centres,
                        const EffortList& of_all) {
@@ -107,7 +107,8 @@ EffortList leftBetween(const GivenRows& rows, const NeededBy& needed, double hal
   const EffortList before = differences(second, fourth);
   for (std::size_t k = 0; k < out.size(); ++k)
     for (Eigen::Index i = 0; i < out[k].size(); ++i)
-      if (smooth * out[k](i) < before[k](i)) out[k](i) *= out[k](i) / before[k](i);
+      out[k](i) =
+          smooth * out[k](i) < before[k](i) ? out[k](i) * out[k](i) / before[k](i) : std::max(out[k](i), before[k](i));
   return out;
 }
 
