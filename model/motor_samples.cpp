@@ -58,7 +58,8 @@ std::vector<double> halfDigitsOf(const CsvTable& printed, const CsvTable& si) {
 }
 
 /// Refuses derivatives that contradict what they belong to. Between two instants the mean slope is a derivative's value
-/// there; it lies within the range of the nearest four derivatives, as far as that range goes on either side.
+/// there; it lies within the range of the nearest four derivatives, as far as that range goes on either side. Friction
+/// and efforts may change more between two rows, but not between most of the rows around.
 class Derivatives {
  public:
   Derivatives(const CsvTable& table, const std::vector<double>& half) : table_(table), half_(half) {
@@ -78,11 +79,25 @@ class Derivatives {
       const double h = t_[i + 1] - t_[i], slope = (values[i + 1] - values[i]) / h;
       const double rounding = 2 * half_[indexOf(values)] + stamps_ * std::abs(slope) + 1e-15 * most;
       const double slack = *high - *low + half_[indexOf(rates)] + rounding / h + 1e-12 * std::abs(slope);
-      if (h > 0 && !(slope >= *low - slack && slope <= *high + slack)) refuse(values, rates, i, slope);
+      if (h > 0 && !(slope >= *low - slack && slope <= *high + slack) && isOffAround(values, rates, i))
+        refuse(values, rates, i, slope);
     }
   }
 
  private:
+  /// Whether most rises around row i differ from the means of their rates by a share that no event explains.
+  bool isOffAround(const std::vector<double>& values, const std::vector<double>& rates, std::size_t i) const {
+    constexpr std::size_t reach = 8;
+    constexpr double share = 0.03;
+    const std::size_t first = i > reach ? i - reach : 0, last = std::min(i + reach, t_.size() - 2);
+    std::size_t off = 0;
+    for (std::size_t j = first; j <= last; ++j) {
+      const double rise = values[j + 1] - values[j], mean = (rates[j] + rates[j + 1]) / 2 * (t_[j + 1] - t_[j]);
+      if (!(std::abs(rise - mean) <= share * std::max(std::abs(rise), std::abs(mean)))) ++off;
+    }
+    return 2 * off > last - first + 1;
+  }
+
   std::size_t indexOf(const std::vector<double>& column) const { return &column - table_.columns.data(); }
   const std::string& nameOf(const std::vector<double>& column) const { return table_.names[indexOf(column)]; }
 

@@ -145,12 +145,15 @@ const LoopPose& LoopMotion::near(double t) const {
 
 VectorXd LoopMotion::inverseDynamics(double t, LoopWork& work) const {
   const MotorMotion motion = trajectory_->at(t);
-  LoopPose pose = near(t);
-  solver_->moveTo(motion.q, pose);
-  VectorXd out = solver_->inverseDynamics(motion, pose, work);
-  if (!out.allFinite())
-    throw LoopError("the motion needs efforts beyond all numbers, at t = " + std::to_string(t) + " s");
-  return out;
+  try {
+    LoopPose pose = near(t);
+    solver_->moveTo(motion.q, pose);
+    VectorXd out = solver_->inverseDynamics(motion, pose, work);
+    if (!out.allFinite()) throw LoopError("the motion needs efforts beyond all numbers");
+    return out;
+  } catch (const LoopError& error) {
+    throw LoopError(std::string(error.what()) + ", at t = " + std::to_string(t) + " s");
+  }
 }
 
 }  // namespace ursula

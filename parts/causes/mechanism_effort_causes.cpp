@@ -132,8 +132,23 @@ namespace {
 /// Efforts of another time, τ(t + dt), at the instants whose shifted time is within the motion.
 class Shifted {
  public:
-  /// Takes one instant in `stride`. `usable` is false if too few are left.
+  /// Takes one instant in `stride`. `usable` is false if too few are left, or the loops cannot follow at one of them.
   Shifted(const EffortResidual& data, double dt, std::size_t stride) {
+    try {
+      shift(data, dt, stride);
+    } catch (const LoopError&) {
+      unexplained = HUGE_VAL;
+    }
+  }
+
+  double step() const { return slope.dot(left) / slope.squaredNorm(); }
+
+  VectorXd left, slope, limit;
+  double unexplained = HUGE_VAL;
+  bool usable = false;
+
+ private:
+  void shift(const EffortResidual& data, double dt, std::size_t stride) {
     const double duration = data.motion->trajectory().duration(), step = 1e-5 * duration;
     std::vector<std::size_t> used;
     for (std::size_t i = 0; i < data.t.size(); i += stride)
@@ -157,12 +172,6 @@ class Shifted {
     unexplained = before > 0 ? left.norm() / std::sqrt(before) : HUGE_VAL;
     usable = std::isfinite(unexplained) && slope.squaredNorm() > 0;
   }
-
-  double step() const { return slope.dot(left) / slope.squaredNorm(); }
-
-  VectorXd left, slope, limit;
-  double unexplained = HUGE_VAL;
-  bool usable = false;
 };
 
 /// The shift that explains most among a hundredth of the duration each.

@@ -119,5 +119,41 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair("hexapod_seven", "7 motors for 6 freedoms")),
     [](const auto& machine) { return std::string(machine.param.first); });
 
+/// Stands still, but for an instant.
+class Excursion : public MotorTrajectory {
+ public:
+  Excursion(Eigen::VectorXd home, Eigen::VectorXd away) : home_(std::move(home)), away_(std::move(away)) {}
+  std::string kind() const override { return "excursion"; }
+  double duration() const override { return 1; }
+  MotorMotion at(double t) const override {
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(home_.size());
+    return {t, t == instant ? away_ : home_, rest, rest};
+  }
+  static constexpr double instant = 0.501;
+
+ private:
+  Eigen::VectorXd home_, away_;
+};
+
+TEST(LoopMotions, refuseWithTheInstantAndTheLoop) {
+  const MechanismScenario scenario = loopScenario("refused/fourbar_out_of_reach");
+  const LoopSolver solver(*scenario.mechanism);
+  const Eigen::VectorXd home = solver.motorCoordinates(solver.assembled());
+  LoopWork work;
+  int refused = 0;
+  for (int k = 0; k < 100; ++k) {
+    const Excursion trajectory(home, scenario.trajectory->at(0.02 * k).q);
+    const LoopMotion motion(solver, trajectory);
+    EXPECT_NO_THROW(motion.inverseDynamics(0.5, work));
+    try {
+      motion.inverseDynamics(Excursion::instant, work);
+    } catch (const LoopError& error) {
+      ++refused;
+      EXPECT_THAT(error.what(), HasSubstr(", at t = 0.501000 s"));
+    }
+  }
+  EXPECT_GT(refused, 0);
+}
+
 }  // namespace
 }  // namespace ursula

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -213,6 +214,30 @@ TEST(MechanismDrawing, showsEachBodyByItsJoints) {
   EXPECT_TRUE(contains(svg, "a &lt; b"));
   EXPECT_TRUE(contains(svg, ">crank_hinge</text>"));
   EXPECT_FALSE(contains(svg, ">tip</text>"));
+}
+
+/// Names one line apart but for rounding do not cover each other; the same place moves the later one down.
+TEST(MechanismDrawing, namesMotorsAtNearlyTheSamePlace) {
+  for (const double apart : {0.0, 1e-15, -1e-15, 1e-9, 0.1}) {
+    MechanismPicture machine = fourBar();
+    for (int k = 0; k < 4; ++k) {
+      MechanismPicture::Joint more = machine.joints.front();
+      more.name = "motor_" + std::to_string(k), more.motor = k + 1;
+      more.at_child += Vector3d(0, 0, apart * (k + 1));
+      machine.joints.push_back(more);
+      machine.motors.push_back({more.name, "Nm"});
+    }
+    const std::string svg = picture(machine, "many");
+    std::vector<double> heights;
+    for (std::size_t at = svg.find("<text class=\"motor\""); at != std::string::npos;
+         at = svg.find("<text class=\"motor\"", at + 1))
+      heights.push_back(std::stod(svg.substr(svg.find(" y=\"", at) + 4)));
+    ASSERT_EQ(heights.size(), 15u) << "five names in three views";
+    for (auto view = heights.begin(); view != heights.end(); view += 5) {
+      std::sort(view, view + 5);
+      for (int k = 1; k < 5; ++k) EXPECT_GT(view[k] - view[k - 1], 14.8) << apart;
+    }
+  }
 }
 
 /// The points that two bodies share stay together along the motion, so the drawing's poses are the machine's.

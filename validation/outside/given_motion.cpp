@@ -8,55 +8,23 @@
 #include <utility>
 #include <vector>
 
+#include "base/csv.h"
 #include "base/csv_digits.h"
+#include "base/errors.h"
 #include "model/columns.h"
-#include "model/instants.h"
 #include "model/quaternions.h"
 #include "model/trajectories/trajectories.h"
+#include "validation/outside/window_means.h"
 
 namespace ursula {
 namespace {
 
 /// Windows in a motion, and the fewest rows in one.
-constexpr int windows = 20, rows_in_window = 8, most_centres = 301;
+constexpr int windows = 20, rows_in_window = 8;
 /// What is left open by rows is known for the scenario's motion; another one has up to as many times of it.
 constexpr double other_motion = 4;
 
-using EffortList = std::vector<Eigen::VectorXd>;
 using EffortsAt = std::function<Eigen::VectorXd(double t)>;
-
-/// Means over windows with the weight (1 − x²)³. It falls to zero smoothly, so that integrated by parts an acceleration
-/// becomes a position.
-class WindowMeans {
- public:
-  WindowMeans(std::vector<double> t, double half) : t_(std::move(t)), half_(half) {}
-
-  Eigen::VectorXd at(double centre, const EffortList& values) const {
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(values.front().size());
-    double weights = 0;
-    const auto from = std::lower_bound(t_.begin(), t_.end(), centre - half_) - t_.begin();
-    for (std::size_t k = from; k < t_.size() && t_[k] < centre + half_; ++k) {
-      const double x = (t_[k] - centre) / half_, falling = 1 - x * x;
-      const double between = (t_[std::min(k + 1, t_.size() - 1)] - t_[k > 0 ? k - 1 : 0]) / 2;
-      const double weight = falling * falling * falling * between;
-      sum += weight * values[k];
-      weights += weight;
-    }
-    return sum / weights;
-  }
-
-  /// Centres whose windows are within the motion, away from its ends, where a spline is less exact.
-  std::vector<double> centres() const {
-    const double first = t_.front() + 1.5 * half_, last = t_.back() - 1.5 * half_;
-    std::vector<double> out = equallySpaced(last - first, std::min<int>(most_centres, static_cast<int>(t_.size())));
-    for (double& t : out) t += first;
-    return out;
-  }
-
- private:
-  std::vector<double> t_;
-  double half_;
-};
 
 /// The efforts that are judged in place of a motion.
 struct MotionAsEfforts {
@@ -65,35 +33,106 @@ struct MotionAsEfforts {
   double window = 0;
 };
 
-/// `t` are the rows where efforts are compared; `needed` are those of the file's motion, `right` those of the
-/// scenario's, `sampled` those of a spline through the scenario's motion at the file's instants and digits. `given` are
-/// compared with those needed.
-MotionAsEfforts compared(const std::vector<double>& t, const EffortList& given, const EffortsAt& needed,
-                         const EffortsAt& right, const EffortsAt& sampled) {
+/// Rows where efforts are compared, and the given ones.
+struct GivenRows {
+  std::vector<double> t;
+  EffortList efforts;
+};
+
+/// Returns each `step`-th value and the last.
+template <class T>
+std::vector<T> eachOf(const std::vector<T>& all, std::size_t step) {
+  std::vector<T> out;
+  for (std::size_t k = 0; k + 1 < all.size(); k += step) out.push_back(all[k]);
+  out.push_back(all.back());
+  return out;
+}
+
+/// Means of the given efforts less those needed, by each `step`-th row.
+EffortList meansOff(const GivenRows& rows, std::size_t step, const EffortsAt& needed, double half,
+                    const std::vector<double>& centres) {
+  const std::vector<double> t = eachOf(rows.t, step);
+  EffortList off = eachOf(rows.efforts, step), out;
+  for (std::size_t k = 0; k < t.size(); ++k) off[k] -= needed(t[k]);
+  const WindowMeans means(t, half);
+  for (const double centre : centres) out.emplace_back(means.at(centre, off));
+  return out;
+}
+
+/// The largest values around each.
+EffortList mostAround(const EffortList& values) {
+  const std::size_t reach = 1 + values.size() / windows;
+  EffortList out;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    Eigen::VectorXd most = values[k].cwiseAbs();
+    for (std::size_t j = k > reach ? k - reach : 0; j <= std::min(k + reach, values.size() - 1); ++j)
+      most = most.cwiseMax(values[j].cwiseAbs()).eval();
+    out.push_back(std::move(most));
+  }
+  return out;
+}
+
+/// Largest differences around each; those to zero where a window of `b` has no row.
+EffortList differences(const EffortList& a, const EffortList& b) {
+  EffortList out;
+  for (std::size_t k = 0; k < a.size(); ++k) out.push_back(b[k].allFinite() ? Eigen::VectorXd(a[k] - b[k]) : a[k]);
+  return mostAround(out);
+}
+
+/// The efforts that the file's motion needs, by each `step`-th of its rows.
+using NeededBy = std::function<EffortsAt(std::size_t step)>;
+
+/// The error that the rows' distance leaves in the means `of_all`. Every second row changes them by d₂, every fourth by
+/// d₄ more: d₂²/d₄ is left if it shrinks as a smooth motion does, else the larger. All of the efforts if the
+/// loops cannot follow every second row.
+EffortList leftBetween(const GivenRows& rows, const NeededBy& needed, double half, const std::vector<double>& centres,
+                       const EffortList& of_all) {
+  const auto coarser = [&](std::size_t step) -> EffortList {
+    try {
+      return meansOff(rows, step, needed(step), half, centres);
+    } catch (const LoopError&) {
+    } catch (const InvalidParameter&) {  // too few rows
+    }
+    return {};
+  };
+  const EffortList second = coarser(2), fourth = coarser(4);
+  if (second.empty()) {
+    Eigen::VectorXd most = rows.efforts.front().cwiseAbs();
+    for (const Eigen::VectorXd& each : rows.efforts) most = most.cwiseMax(each.cwiseAbs()).eval();
+    return EffortList(centres.size(), most);
+  }
+  EffortList out = differences(of_all, second);
+  if (fourth.empty()) return out;
+  constexpr double smooth = 16;  // twice the distance of rows, to the fourth power
+  const EffortList before = differences(second, fourth);
+  for (std::size_t k = 0; k < out.size(); ++k)
+    for (Eigen::Index i = 0; i < out[k].size(); ++i)
+      out[k](i) =
+          smooth * out[k](i) < before[k](i) ? out[k](i) * out[k](i) / before[k](i) : std::max(out[k](i), before[k](i));
+  return out;
+}
+
+/// `right` are the efforts of the scenario's motion, `sampled` those of a spline through that motion at the file's
+/// instants and digits. The given ones are compared with those needed.
+MotionAsEfforts compared(const GivenRows& rows, const NeededBy& neededBy, const EffortsAt& right,
+                         const EffortsAt& sampled) {
+  const std::vector<double>& t = rows.t;
   const double duration = t.back() - t.front();
   const double half = std::max(duration / windows, rows_in_window * duration / static_cast<double>(t.size() - 1)) / 2;
   if (!(6 * half < duration))
     throw CsvError(fmt::format("{} rows show no accelerations, expected at least {}", t.size(), 4 * rows_in_window));
-  const WindowMeans means(t, half);
-  EffortList off, open;
-  for (std::size_t k = 0; k < t.size(); ++k) {
-    off.emplace_back(given[k] - needed(t[k]));
-    open.emplace_back(sampled(t[k]) - right(t[k]));
-  }
   MotionAsEfforts out;
-  out.t = means.centres();
+  out.t = WindowMeans(t, half).centres();
   out.window = 2 * half;
-  EffortList left_open;
-  for (const double centre : out.t) {
-    out.efforts.emplace_back(needed(centre) + means.at(centre, off));
-    left_open.emplace_back(means.at(centre, open).cwiseAbs());
-  }
-  const std::size_t reach = 1 + out.t.size() / windows;
+  GivenRows spline{t, {}};
+  for (const double each : t) spline.efforts.push_back(sampled(each));
+  const EffortsAt needed = neededBy(1);
+  const EffortList off = meansOff(rows, 1, needed, half, out.t);
+  const EffortList open = mostAround(meansOff(spline, 1, right, half, out.t));
+  const EffortList between = leftBetween(rows, neededBy, half, out.t, off);
   for (std::size_t k = 0; k < out.t.size(); ++k) {
-    Eigen::VectorXd most = left_open[k];
-    for (std::size_t j = k > reach ? k - reach : 0; j <= std::min(k + reach, out.t.size() - 1); ++j)
-      most = most.cwiseMax(left_open[j]).eval();
-    out.precision.emplace_back(other_motion * most);
+    out.efforts.emplace_back(needed(out.t[k]) + off[k]);
+    out.precision.emplace_back(other_motion * (open[k] + between[k]));
   }
   return out;
 }
@@ -115,13 +154,11 @@ Finding windowsOf(const MotionAsEfforts& made, const std::string& torques) {
                                      torques.empty() ? "the right ones of the scenario's motion" : torques)};
 }
 
-/// The scenario's motion at the file's instants and digits, and a spline through them.
-std::shared_ptr<const Trajectory> likewise(const Trajectory& motion, const CsvTable& table) {
+/// A spline through a motion at instants, in digits of p and q.
+std::shared_ptr<const Trajectory> splineOf(const Trajectory& motion, const std::vector<double>& instants,
+                                           const std::vector<double>& halves = std::vector<double>(7)) {
   std::vector<TimedPose> poses;
-  std::vector<double> halves;
-  for (const char* name : {"p_x_m", "p_y_m", "p_z_m", "q_w", "q_x", "q_y", "q_z"})
-    halves.push_back(halfDigit(table, name));
-  for (const double t : table.at("t_s")) {
+  for (const double t : instants) {
     const Motion<double> at = motion.at(std::min(t, motion.duration()));
     const Eigen::Vector4d q = quaternions({at}).front();
     poses.emplace_back();
@@ -132,6 +169,46 @@ std::shared_ptr<const Trajectory> likewise(const Trajectory& motion, const CsvTa
   return makeSamples(poses);
 }
 
+/// The same of motors; `given` keeps rates and accelerations.
+std::shared_ptr<const MotorTrajectory> splineOf(const MotorTrajectory& motion, const std::vector<double>& instants,
+                                                bool given, double half) {
+  const auto count = static_cast<Eigen::Index>(instants.size()), n = motion.at(0).q.size();
+  Eigen::MatrixXd q(count, n), rates, accelerations;
+  if (given) rates.resize(count, n), accelerations.resize(count, n);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const MotorMotion at = motion.at(std::min(instants[k], motion.duration()));
+    for (Eigen::Index i = 0; i < n; ++i) q(k, i) = toDigits(at.q(i), half);
+    if (given) rates.row(k) = at.qdot, accelerations.row(k) = at.qddot;
+  }
+  return makeMotorSamples(instants, q, rates, accelerations);
+}
+
+/// The efforts that a motion of the machine needs. Throws LoopError.
+EffortsAt effortsAlong(MechanismScenario scenario, std::shared_ptr<const MotorTrajectory> motion) {
+  scenario.trajectory = std::move(motion);
+  const auto kept = std::make_shared<const MechanismScenario>(std::move(scenario));
+  const auto along = std::make_shared<const MechanismAlong>(*kept);
+  return [kept, along](double t) {
+    LoopWork work;
+    return along->motion().inverseDynamics(std::min(t, kept->trajectory->duration()), work);
+  };
+}
+
+/// The given efforts within the file's motion, or the right ones at its instants if there are none.
+GivenRows rowsWithin(const std::vector<double>& instants, const std::vector<double>* t, const EffortList& efforts,
+                     const std::string& name, const EffortsAt& right) {
+  GivenRows out;
+  if (t == nullptr) {
+    out.t = instants;
+    for (const double each : instants) out.efforts.push_back(right(each));
+    return out;
+  }
+  for (std::size_t k = 0; k < t->size(); ++k)
+    if ((*t)[k] <= instants.back()) out.t.push_back((*t)[k]), out.efforts.push_back(efforts[k]);
+  if (out.t.size() < 2) throw CsvError(name + ": error: no instants within the motion of the file");
+  return out;
+}
+
 }  // namespace
 
 ValidationResult validateMotion(const Scenario& scenario, const std::filesystem::path& motion,
@@ -139,25 +216,25 @@ ValidationResult validateMotion(const Scenario& scenario, const std::filesystem:
   const CsvTable table = readByMeaning(motion, false);
   Scenario along = scenario;
   along.trajectory = std::shared_ptr<const Trajectory>(makeSamples(table));
-  const double duration = along.trajectory->duration();
-  requireWithin(table.at("t_s"), scenario.trajectory->duration(), motion);
-  const auto similar = likewise(*scenario.trajectory, table);
+  const std::vector<double>& instants = table.at("t_s");
+  requireWithin(instants, scenario.trajectory->duration(), motion);
+  std::vector<double> halves;
+  for (const char* name : {"p_x_m", "p_y_m", "p_z_m", "q_w", "q_x", "q_y", "q_z"})
+    halves.push_back(halfDigit(table, name));
   const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
   const auto of = [&noc](std::shared_ptr<const Trajectory> path) -> EffortsAt {
     return [&noc, path](double t) { return Eigen::VectorXd(noc.torques(path->at(std::min(t, path->duration())))); };
   };
   const EffortsAt right = of(scenario.trajectory);
-  std::vector<double> t;
-  EffortList given;
-  if (torques == nullptr) {
-    t = table.at("t_s");
-    for (const double each : t) given.push_back(right(each));
-  } else {
-    for (std::size_t k = 0; k < torques->rows(); ++k)
-      if (torques->t[k] <= duration) t.push_back(torques->t[k]), given.emplace_back(torques->torques[k]);
-    if (t.size() < 2) throw CsvError(torques->file.string() + ": error: no instants within the motion of the file");
-  }
-  const MotionAsEfforts made = compared(t, given, of(along.trajectory), right, of(similar));
+  EffortList efforts;
+  if (torques != nullptr)
+    for (const auto& each : torques->torques) efforts.emplace_back(each);
+  const GivenRows rows =
+      rowsWithin(instants, torques ? &torques->t : nullptr, efforts, torques ? torques->file.string() : "", right);
+  const NeededBy needed = [&](std::size_t step) {
+    return of(step == 1 ? along.trajectory : splineOf(*along.trajectory, eachOf(instants, step)));
+  };
+  const MotionAsEfforts made = compared(rows, needed, right, of(splineOf(*scenario.trajectory, instants, halves)));
   GivenTorques judged{motion.filename().string(), made.t, {}};
   for (const Eigen::VectorXd& each : made.efforts) judged.torques.emplace_back(each);
   TorqueFile file = torqueFileOf(judged, scenario.manipulator->motors());
@@ -175,36 +252,19 @@ ValidationResult validateMotion(const MechanismScenario& scenario, const std::fi
                                 const GivenEfforts* efforts, const MechanismOptions& options) {
   const MotorSamples read = readMotorSamples(motion, *scenario.mechanism);
   requireWithin(read.t, scenario.trajectory->duration(), motion);
-  MechanismScenario along = scenario, similar = scenario;
+  MechanismScenario along = scenario;
   along.trajectory = read.trajectory;
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(read.t.size()),
-                       static_cast<Eigen::Index>(scenario.mechanism->motorCount()));
-  for (Eigen::Index k = 0; k < rows.rows(); ++k) {
-    const double t = std::min(read.t[k], scenario.trajectory->duration());
-    const Eigen::VectorXd q = scenario.trajectory->at(t).q;
-    for (Eigen::Index i = 0; i < rows.cols(); ++i) rows(k, i) = toDigits(q(i), read.quantum);
-  }
-  similar.trajectory = std::shared_ptr<const MotorTrajectory>(makeMotorSamples(read.t, rows));
-  const MechanismAlong of_file(along), of_scenario(scenario), of_similar(similar);
-  const auto of = [](const MechanismAlong& path) -> EffortsAt {
-    return [&path](double t) {
-      LoopWork work;
-      return path.motion().inverseDynamics(std::min(t, path.motion().trajectory().duration()), work);
-    };
+  const EffortsAt right = effortsAlong(scenario, scenario.trajectory);
+  const GivenRows rows = rowsWithin(read.t, efforts ? &efforts->t : nullptr, efforts ? efforts->efforts : EffortList(),
+                                    efforts ? efforts->name : "", right);
+  const std::string text = readCsvText(motion);
+  const bool has_derivatives = text.find("qdot_") != std::string::npos && text.find("qddot_") != std::string::npos;
+  const NeededBy needed = [&](std::size_t step) {
+    return effortsAlong(
+        scenario, step == 1 ? read.trajectory : splineOf(*read.trajectory, eachOf(read.t, step), has_derivatives, 0));
   };
-  const EffortsAt right = of(of_scenario);
-  std::vector<double> t;
-  EffortList given;
-  const double duration = read.trajectory->duration();
-  if (efforts == nullptr) {
-    t = read.t;
-    for (const double each : t) given.push_back(right(each));
-  } else {
-    for (std::size_t k = 0; k < efforts->t.size(); ++k)
-      if (efforts->t[k] <= duration) t.push_back(efforts->t[k]), given.push_back(efforts->efforts[k]);
-    if (t.size() < 2) throw CsvError(efforts->name + ": error: no instants within the motion of the file");
-  }
-  const MotionAsEfforts made = compared(t, given, of(of_file), right, of(of_similar));
+  const EffortsAt sampled = effortsAlong(scenario, splineOf(*scenario.trajectory, read.t, false, read.quantum));
+  const MotionAsEfforts made = compared(rows, needed, right, sampled);
   auto judged = std::make_shared<GivenEfforts>();
   judged->name = motion.filename().string();
   judged->t = made.t;
