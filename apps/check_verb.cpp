@@ -7,6 +7,7 @@
 #include "apps/mechanism.h"
 #include "apps/output.h"
 #include "apps/suggest.h"
+#include "apps/validate_options.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
 #include "base/text.h"
@@ -22,7 +23,7 @@ namespace ursula {
 namespace {
 
 struct CheckOptions {
-  std::vector<std::string> scenarios;
+  std::vector<std::string> scenarios, map;
   std::string picture, out;
   bool json = false, suggest = false;
 };
@@ -52,7 +53,9 @@ void print(const CheckedScenario& checked, const std::string& freedoms, const Ch
 CheckedScenario checkOne(const std::string& file, const CheckOptions& options) {
   CheckedScenario failed{file, ""};
   try {
-    const AnyScenario any = readAny(file, {options.picture, options.out});
+    const AnyScenario any = readAny(file, {options.picture, options.out}, options.map);
+    requireUsed(options.map, any);
+    if (any.mechanism && !any.mechanism->motion_read_as.empty()) say("{}\n", any.mechanism->motion_read_as);
     std::string freedoms;
     CheckedScenario out = any.mechanism ? checkMechanism(*any.mechanism, options.picture, freedoms)
                                         : checkManipulator(*any.manipulator, options.picture);
@@ -101,6 +104,7 @@ void addCheck(CLI::App& app, std::function<int()>& run) {
   CLI::Option* suggest =
       verb->add_flag("--suggest", options->suggest,
                      "Prints the scenario with another motion, under which more mistakes show, and says which do not");
+  addMapOption(*verb, options->map);
   suggest->excludes(json)->excludes(picture);
   verb->add_option("--out", options->out, "New file for that scenario instead of standard output; never overwrites")
       ->needs(suggest);

@@ -39,10 +39,11 @@ FilePlace placeOf(const JudgedFile& judged, const std::string& error) {
 }
 
 /// What is said of a scenario in one sentence or two.
-std::string messageOf(const Json& summary) {
+std::string messageOf(const Json& summary, const std::string& cause) {
   const std::string error = textAt(summary, "error");
   if (!error.empty()) return error;
-  return fmt::format("{}: {}", textAt(summary, "scenario"), textAt(summary, "reason"));
+  return fmt::format("{}: {}{}{}", textAt(summary, "scenario"), textAt(summary, "reason"), cause.empty() ? "" : "; ",
+                     cause);
 }
 
 /// Escapes a workflow command's text, and its properties.
@@ -95,7 +96,8 @@ std::string githubText(const std::vector<JudgedFile>& judged) {
     const FilePlace place = placeOf(each, textAt(summary, "error"));
     out += fmt::format("::{} file={},line={},col={},title={}::{}\n", levelOf(textAt(summary, "verdict"), "notice"),
                        escaped(place.file, true), place.line, place.column,
-                       escaped("ursula: " + textAt(summary, "verdict"), true), escaped(messageOf(summary), false));
+                       escaped("ursula: " + textAt(summary, "verdict"), true),
+                       escaped(messageOf(summary, each.cause), false));
   }
   return out;
 }

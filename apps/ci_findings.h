@@ -9,6 +9,7 @@ namespace ursula {
 /// A judged scenario: its file as the user named it, and its summary.json, or that of its error.
 struct JudgedFile {
   std::string file, summary;
+  std::string cause = {};  ///< "likely cause: …"; empty if none is named
 };
 
 /// Returns workflow commands of GitHub, a line for each scenario: an error for a failure, a warning for what could not

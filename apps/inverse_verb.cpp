@@ -4,10 +4,12 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "apps/mechanism.h"
 #include "apps/output.h"
 #include "apps/progress.h"
+#include "apps/validate_options.h"
 #include "apps/verbs.h"
 #include "report/files/inverse_blocks.h"
 
@@ -16,13 +18,15 @@ namespace {
 
 struct InverseOptions {
   std::string scenario, out = "-";
+  std::vector<std::string> map;
   int samples = 301;
   RowFormat format = RowFormat::csv;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
 
 int inverse(const InverseOptions& options) {
-  const AnyScenario any = openAny(options.scenario, {options.out});
+  const AnyScenario any = openAny(options.scenario, {options.out}, options.map);
+  requireUsed(options.map, any);
   if (any.mechanism && options.format != RowFormat::csv)
     throw UsageError(fmt::format("--format: {} has [mechanism], expected csv", options.scenario));
   if (any.mechanism) return inverseOfMechanism(*any.mechanism, options.samples, options.out);
@@ -52,6 +56,7 @@ void addInverse(CLI::App& app, std::function<int()>& run) {
       ->check(CLI::Range(2, 1000000000))
       ->capture_default_str();
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
+  addMapOption(*verb, options->map);
   addRowOptions(*verb, options->format, options->jobs);
   verb->callback([options, &run] { run = [options] { return inverse(*options); }; });
 }

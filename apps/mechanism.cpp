@@ -12,8 +12,10 @@
 #include "apps/validate_options.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
+#include "base/csv_dialect.h"
 #include "base/text.h"
 #include "model/instants.h"
+#include "model/motor_table.h"
 #include "model/scenario_files.h"
 #include "model/torque_names.h"
 #include "report/page/scenario_picture.h"
@@ -21,24 +23,39 @@
 #include "validation/outside/given_motion.h"
 
 namespace ursula {
-AnyScenario readAny(const std::string& file, std::initializer_list<std::string> written) {
+AnyScenario readAny(const std::string& file, std::initializer_list<std::string> written,
+                    const std::vector<std::string>& map) {
   const std::string text = scenarioNotModel(file);
   const std::filesystem::path name = namedInput(file);
   AnyScenario out;
   if (isMechanism(text))
-    out.mechanism = parseMechanism(text, name, partModelReader());
+    out.mechanism = parseMechanism(text, name, partModelReader(), map);
   else
     out.manipulator = parseScenario(text, name);
   requireApart(text, name, written);
   return out;
 }
 
-AnyScenario openAny(const std::string& file, std::initializer_list<std::string> written) {
-  AnyScenario out = readAny(file, written);
+AnyScenario openAny(const std::string& file, std::initializer_list<std::string> written,
+                    const std::vector<std::string>& map) {
+  AnyScenario out = readAny(file, written, map);
   if (out.manipulator) sayWarnings(*out.manipulator);
-  if (out.mechanism)
-    for (const std::string& text : out.mechanism->read.warnings) say("{}\n", withoutControls(text));
+  if (!out.mechanism) return out;
+  if (!out.mechanism->motion_read_as.empty()) say("{}\n", out.mechanism->motion_read_as);
+  for (const std::string& text : out.mechanism->read.warnings) say("{}\n", withoutControls(text));
   return out;
+}
+
+void requireUsed(const std::vector<std::string>& map, const std::vector<std::string>& used) {
+  for (const std::string& each : map)
+    if (std::find(used.begin(), used.end(), each) == used.end())
+      throw UsageError(
+          fmt::format("--map {}: no file of motion or efforts that is read has this column and takes this name for it",
+                      shown(each)));
+}
+
+void requireUsed(const std::vector<std::string>& map, const AnyScenario& any) {
+  requireUsed(map, any.mechanism ? any.mechanism->mapped : std::vector<std::string>());
 }
 
 int inverseOfMechanism(const MechanismScenario& scenario, int samples, const std::string& out) {
@@ -110,10 +127,18 @@ ValidationResult judgeMechanism(const MechanismScenario& scenario, const OtherSu
     if (!other.solver.command.empty())
       return other.simulates ? validateExternalSimulator(scenario, other.solver, options)
                              : validateExternalSolver(scenario, other.solver, options);
+    std::vector<std::string> used = scenario.mapped;
+    if (!other.trajectory.empty()) {
+      const MotorTable motion = readMotorTable(other.trajectory, *scenario.mechanism, other.map);
+      used.insert(used.end(), motion.mapped.begin(), motion.mapped.end());
+      if (!motion.read_as.empty()) say("{}: read as: {}\n", shownPath(other.trajectory), motion.read_as);
+    }
     std::shared_ptr<const GivenEfforts> given;
     if (!other.torques.empty())
-      given = std::make_shared<const GivenEfforts>(readEffortsAloud(other.torques, other.map, scenario));
-    if (!other.trajectory.empty()) return validateMotion(scenario, other.trajectory, given.get(), options);
+      given = std::make_shared<const GivenEfforts>(readEffortsAloud(other.torques, other.map, used, scenario));
+    else if (!other.trajectory.empty())
+      requireUsed(other.map, used);
+    if (!other.trajectory.empty()) return validateMotion(scenario, other.trajectory, given.get(), options, other.map);
     MechanismSubject subject;
     subject.given = given;
     if (given) subject.about = {given->name, Formulation::external, CalledBy::torques};
@@ -121,11 +146,31 @@ ValidationResult judgeMechanism(const MechanismScenario& scenario, const OtherSu
   });
 }
 
+namespace {
+
+/// The entries for a file of efforts: not those that the motion's file used, unless this one has such a column, too.
+std::vector<std::string> effortEntries(const std::string& file, const std::vector<std::string>& map,
+                                       const std::vector<std::string>& used, const Mechanism& mechanism) {
+  if (map.empty()) return {};
+  const std::vector<std::string> header = guessDialect(readCsvText(file), file).header_cells;
+  std::vector<std::string> out;
+  for (const std::string& each : map) {
+    const auto [name, column] = mapEntry(each);
+    const bool is_own =
+        meaningOfTarget(name, mechanism).has_value() && std::find(header.begin(), header.end(), column) != header.end();
+    if (is_own || std::find(used.begin(), used.end(), each) == used.end()) out.push_back(each);
+  }
+  return out;
+}
+
+}  // namespace
+
 GivenEfforts readEffortsAloud(const std::string& file, const std::vector<std::string>& map,
-                              const MechanismScenario& scenario) {
+                              const std::vector<std::string>& used, const MechanismScenario& scenario) {
   const Mechanism& mechanism = *scenario.mechanism;
+  const std::vector<std::string> own = effortEntries(file, map, used, mechanism);
   GivenEfforts given =
-      readMotorEfforts(file, mechanism, scenario.trajectory->duration(), parseColumnMap(map, mechanism));
+      readMotorEfforts(file, mechanism, scenario.trajectory->duration(), parseColumnMap(own, mechanism));
   sayHowRead(file, given.read_as, given.ignored, targetNames(mechanism));
   return given;
 }

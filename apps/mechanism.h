@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "model/mechanism_scenario.h"
 #include "nocsolver/loops/loop_solver.h"
@@ -21,10 +22,18 @@ struct AnyScenario {
   std::optional<Scenario> manipulator;  ///< if it is no mechanism
 };
 /// Reads a scenario of either machine, `-` for standard input. Throws ScenarioError and InputError, and UsageError if
-/// one of the options' values `written` is a file that it names. Warnings are not said.
-AnyScenario readAny(const std::string& file, std::initializer_list<std::string> written = {});
+/// one of the options' values `written` is a file that it names. `map` is for a mechanism's motion file. Warnings are
+/// not said.
+AnyScenario readAny(const std::string& file, std::initializer_list<std::string> written = {},
+                    const std::vector<std::string>& map = {});
 /// Reads one for a verb that uses its motion, and says on standard error what is odd of it.
-AnyScenario openAny(const std::string& file, std::initializer_list<std::string> written = {});
+AnyScenario openAny(const std::string& file, std::initializer_list<std::string> written = {},
+                    const std::vector<std::string>& map = {});
+
+/// Throws UsageError for an entry of the map that is not among those that files used.
+void requireUsed(const std::vector<std::string>& map, const std::vector<std::string>& used);
+/// The same for a verb that reads no file of efforts.
+void requireUsed(const std::vector<std::string>& map, const AnyScenario& any);
 
 /// Returns the result of `run`; errors of the loops become errors at the scenario.
 template <class Run>
@@ -37,8 +46,9 @@ auto alongLoops(const MechanismScenario& scenario, const Run& run) {
 }
 
 /// Reads a file of efforts, with `map` as for readTorquesAloud(), and says on standard error how its columns were read.
+/// Entries that files of motion `used` need no column in this one.
 GivenEfforts readEffortsAloud(const std::string& file, const std::vector<std::string>& map,
-                              const MechanismScenario& scenario);
+                              const std::vector<std::string>& used, const MechanismScenario& scenario);
 
 /// Writes motion, efforts and joints at equally spaced instants, as CSV.
 int inverseOfMechanism(const MechanismScenario& scenario, int samples, const std::string& out);
@@ -50,7 +60,7 @@ CheckedScenario checkMechanism(const MechanismScenario& scenario, const std::str
 /// Whom the options of `validate` name instead of this program's solver; members that do not apply are empty.
 struct OtherSubject {
   std::string torques, trajectory;  ///< files; a trajectory may have its torques
-  std::vector<std::string> map;     ///< of the torques
+  std::vector<std::string> map;     ///< of the torques, and of a mechanism's motion
   ExternalSolverOptions solver;     ///< a command
   bool simulates = false;           ///< the command is a simulator
 };

@@ -14,6 +14,7 @@
 #include "apps/suggest.h"
 #include "apps/suite/suite.h"
 #include "apps/validate_call.h"
+#include "apps/validate_inputs.h"
 #include "apps/verbs.h"
 #include "base/output_folder.h"
 #include "model/scenario.h"
@@ -96,21 +97,25 @@ ValidationResult judge(const SuiteMember& member, const ValidateOptions& options
   return judgeMechanism(*member.mechanism, options.other, validation);
 }
 
+/// Prints findings in a form for CI.
+void printFindings(const std::string& format, const std::vector<JudgedFile>& judged) {
+  writeOutput("-", format == "github" ? githubText(judged) : sarifText(judged));
+}
+
 /// Prints results in the form that was asked for, by `print` if that is no form for CI, and what changed since an
-/// earlier run. `folders` are those of the results, below `dir`.
-void printAll(const std::vector<SuiteMember>& members, const std::vector<std::filesystem::path>& folders,
-              const std::vector<std::string>& errors, const std::filesystem::path& dir, const ValidateOptions& options,
-              const std::vector<std::string>& older, const std::function<void()>& print) {
+/// earlier run. The folders of `entries` are below `dir`.
+void printAll(const std::vector<SuiteMember>& members, const std::vector<SuiteEntry>& entries,
+              const std::filesystem::path& dir, const ValidateOptions& options, const std::vector<std::string>& older,
+              const std::function<void()>& print) {
   std::vector<JudgedFile> judged;
-  for (std::size_t k = 0; k < members.size(); ++k)
-    judged.push_back({members[k].file.string(),
-                      errors[k].empty() ? summaryIn(dir / folders[k]) : report::errorJson(members[k].name, errors[k])});
-  if (options.format == "github")
-    writeOutput("-", githubText(judged));
-  else if (options.format == "sarif")
-    writeOutput("-", sarifText(judged));
-  else
-    print();
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    const SuiteEntry& entry = entries[k];
+    judged.push_back(
+        {members[k].file.string(),
+         entry.error.empty() ? summaryIn(dir / entry.folder) : report::errorJson(members[k].name, entry.error),
+         entry.cause});
+  }
+  options.format.empty() ? print() : printFindings(options.format, judged);
   if (options.against.empty()) return;
   std::string changes;
   for (std::size_t k = 0; k < members.size(); ++k)
@@ -129,7 +134,7 @@ int validateOne(const SuiteMember& member, const ValidateOptions& options, const
   result.blind = blindSpotsOf(member.scenario ? &*member.scenario : nullptr, member.mechanism.get());
   addResults(result, out, "", watch.time(), Place::alone);
   out.commit();
-  printAll({member}, {""}, {""}, dir, options, older, [&] { printResult(result, dir, options.form()); });
+  printAll({member}, {suiteEntry(result, "")}, dir, options, older, [&] { printResult(result, dir, options.form()); });
   return exitCode(result.verdict);
 }
 
@@ -162,7 +167,10 @@ ValidationResult judgeInSuite(const SuiteMember& member, const ValidateOptions& 
     of_mechanism.time_limit = validation.time_limit;
     of_mechanism.thorough = validation.thorough;
     OtherSubject other = options.other;
-    if (from_file) other.torques = member.torques.string();
+    if (from_file) {
+      other.torques = member.torques.string();
+      other.map = member.mechanism->mapped;
+    }
     return judgeMechanism(*member.mechanism, other, of_mechanism);
   }
   const Scenario& scenario = *member.scenario;
@@ -198,33 +206,8 @@ int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions
     older.push_back(options.against.empty() ? "" : summaryIn(std::filesystem::path(options.against) / member.name));
   const std::vector<SuiteEntry> entries = runSuite(members, dir, suite);
   progress.reset();
-  std::vector<std::filesystem::path> folders;
-  std::vector<std::string> errors;
-  for (const SuiteEntry& entry : entries) {
-    folders.push_back(entry.folder);
-    errors.push_back(entry.error);
-  }
-  printAll(members, folders, errors, dir, options, older, [&] { printSuite(entries, dir, options.form()); });
+  printAll(members, entries, dir, options, older, [&] { printSuite(entries, dir, options.form()); });
   return exitCode(entries);
-}
-
-/// Checks that options fit together, and that options for one motion get one scenario.
-void requireConsistent(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
-  for (const auto& [option, file] :
-       {std::pair("--torques", &options.other.torques), {"--trajectory", &options.other.trajectory}})
-    if (members.size() > 1 && !file->empty())
-      throw UsageError(
-          fmt::format("{}: got {} scenarios, expected one, because a file is of one motion", option, members.size()));
-  for (const std::string& each : options.scenarios)
-    if (std::filesystem::path(each).extension() == ".csv")
-      throw UsageError(fmt::format("{} is no scenario, did you mean --torques {}?", shellWord(each), shellWord(each)));
-  if (!options.other.map.empty() && options.other.torques.empty())
-    throw UsageError("--map: expected also --torques FILE.csv, whose columns it names");
-  const auto& given = options.scenarios;
-  if (!options.other.solver.command.empty() && std::find(given.begin(), given.end(), "-") != given.end())
-    throw UsageError("--solver: got - as the scenario, expected a file, because the command gets its path");
-  if (options.watch && std::find(given.begin(), given.end(), "-") != given.end())
-    throw UsageError("--watch: got - as the scenario, expected a file, because it is read again");
 }
 
 std::shared_ptr<const MechanismScenario> withTolerance(const EffortTolerance& users, MechanismScenario scenario) {
@@ -232,64 +215,45 @@ std::shared_ptr<const MechanismScenario> withTolerance(const EffortTolerance& us
   return std::make_shared<const MechanismScenario>(std::move(scenario));
 }
 
-/// A folder is always a suite, so that scripts find the same files.
-bool isSuite(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
-  const auto is_folder = [](const std::string& each) {
-    std::error_code ignored;
-    return std::filesystem::is_directory(each, ignored);
-  };
-  return members.size() > 1 || (options.other.torques.empty() && options.other.trajectory.empty() &&
-                                std::any_of(options.scenarios.begin(), options.scenarios.end(), is_folder));
-}
-
-std::filesystem::path folderOf(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
-  if (options.out == "-")
-    throw UsageError("--out -: expected a folder, not standard output; --json puts the summary there");
-  const std::filesystem::path by_name = isSuite(options, members) ? "suite" : members.front().name;
-  const std::filesystem::path dir = options.out.empty() ? "results" / by_name : std::filesystem::path(options.out);
-  refuseFile(dir.string());
-  return dir;
-}
-
-/// The input files.
-std::vector<std::filesystem::path> inputsOf(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
-  std::vector<std::filesystem::path> out(options.scenarios.begin(), options.scenarios.end());
-  for (const std::string* each : {&options.other.torques, &options.other.trajectory})
-    if (!each->empty()) out.emplace_back(*each);
-  for (const SuiteMember& member : members) {
-    if (!member.torques.empty()) out.push_back(member.torques);
-    if (member.mechanism) out.push_back(member.mechanism->model);
-    if (!member.scenario) continue;
-    for (std::filesystem::path& each : filesNamedBy(*member.scenario)) out.push_back(std::move(each));
-  }
-  return out;
-}
+/// Does what validateAll() does; `refused` gets the scenarios for whose errors it throws.
+int validateAll(const ValidateOptions& options, std::vector<JudgedFile>& refused);
 
 }  // namespace
 
-std::vector<std::filesystem::path> watchedFiles(const ValidateOptions& options) {
-  std::vector<std::filesystem::path> out;
+int validateAll(const ValidateOptions& options) {
+  std::vector<JudgedFile> refused;
   try {
-    const std::vector<SuiteMember> members = readSuite({options.scenarios.begin(), options.scenarios.end()});
-    out = inputsOf(options, members);
-    for (const SuiteMember& member : members) out.push_back(member.file);
-  } catch (const std::exception&) {  // judging says what is wrong
-    out = inputsOf(options, {});
+    return validateAll(options, refused);
+  } catch (const std::exception& error) {
+    const std::string& first = options.scenarios.front();
+    if (refused.empty()) refused.push_back({first, report::errorJson(first, error.what())});
+    if (!options.format.empty()) printFindings(options.format, refused);
+    throw;
   }
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
 }
 
-int validateAll(const ValidateOptions& options) {
+namespace {
+
+int validateAll(const ValidateOptions& options, std::vector<JudgedFile>& refused) {
   if (std::count(options.scenarios.begin(), options.scenarios.end(), "-") > 1)
     throw UsageError("standard input can be read once, expected one -");
-  std::vector<SuiteMember> members = readSuite({options.scenarios.begin(), options.scenarios.end()});
-  for (const SuiteMember& member : members)
+  std::error_code ignored;
+  if (!options.against.empty() && !std::filesystem::is_directory(options.against, ignored))
+    throw UsageError(fmt::format("--against {}: no such folder, expected that of an earlier run's results",
+                                 shownPath(options.against)));
+  std::vector<SuiteMember> members = readSuite({options.scenarios.begin(), options.scenarios.end()}, options.other.map);
+  for (const SuiteMember& member : members) {
     if (member.scenario) sayWarnings(*member.scenario);
+    if (member.mechanism && !member.mechanism->motion_read_as.empty()) say("{}\n", member.mechanism->motion_read_as);
+  }
   const bool none_good =
       std::none_of(members.begin(), members.end(), [](const auto& each) { return each.error.empty(); });
-  if (options.strict || none_good) members = allOrNothing(std::move(members));
+  if (options.strict || none_good) {
+    for (const SuiteMember& member : members)
+      if (!member.error.empty())
+        refused.push_back({member.file.string(), report::errorJson(member.name, member.error)});
+    members = allOrNothing(std::move(members));
+  }
   requireConsistent(options, members);
   for (SuiteMember& member : members) {
     if (member.scenario) setTolerance(options.tolerance, *member.scenario);
@@ -301,4 +265,5 @@ int validateAll(const ValidateOptions& options) {
   return isSuite(options, members) ? validateSuite(members, options, dir) : validateOne(members.front(), options, dir);
 }
 
+}  // namespace
 }  // namespace ursula

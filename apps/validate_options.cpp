@@ -21,7 +21,8 @@ namespace ursula {
 void addMapOption(CLI::App& verb, std::vector<std::string>& map) {
   verb.add_option(
           "--map", map,
-          "The name that the torque file gives to a column, such as tau_1_Nm=tau1 or t_ms=Time; may be repeated")
+          "The name that a file of efforts, or of a mechanism's motion, gives to a column, such as tau_1_Nm=tau1,\n"
+          "t_ms=Time or JOINT_rad=enc; may be repeated")
       ->type_name("NAME=COLUMN")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

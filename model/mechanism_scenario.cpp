@@ -31,7 +31,9 @@ std::vector<double> numbersOf(const TomlSection& table, const char* key) {
 
 MechanismChoices readChoices(const TomlSection& table) {
   MechanismChoices out;
-  out.motors = table.readStrings("motors").value_or(std::vector<std::string>());
+  const auto motors = table.readStrings("motors");
+  if (motors && motors->empty()) table.fail("motors", "[], expected the names of one or more joints, or no such key");
+  out.motors = motors.value_or(std::vector<std::string>());
   out.close = table.readStrings("close").value_or(std::vector<std::string>());
   out.leave_out = table.readStrings("leave_out").value_or(std::vector<std::string>());
   table.read("base", out.base);
@@ -77,23 +79,28 @@ std::unique_ptr<MotorTrajectory> readHold(const TomlSection& table, const Mechan
   return makeMotorHold(duration, Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size())));
 }
 
-std::shared_ptr<const MotorTrajectory> readMotorSamples(const TomlSection& table, const Mechanism& mechanism) {
+std::shared_ptr<const MotorTrajectory> readMotorSamples(const TomlSection& table, const Mechanism& mechanism,
+                                                        const std::vector<std::string>& map, MechanismScenario& out) {
   table.allowOnly(mechanismTable("trajectory.samples"));
   std::string name;
   table.require("file", name);
   std::filesystem::path file = name;
   if (file.is_relative()) file = std::filesystem::path(table.file()).parent_path() / file;
-  return ursula::readMotorSamples(file, mechanism).trajectory;
+  MotorSamples read = ursula::readMotorSamples(file, mechanism, map);
+  out.motion_read_as = std::move(read.read_as);
+  out.mapped = std::move(read.mapped);
+  return read.trajectory;
 }
 
-std::shared_ptr<const MotorTrajectory> readMotion(const TomlSection& table, const Mechanism& mechanism) {
+std::shared_ptr<const MotorTrajectory> readMotion(const TomlSection& table, const Mechanism& mechanism,
+                                                  const std::vector<std::string>& map, MechanismScenario& out) {
   const auto kind = table.readChoice(mechanismTable("trajectory").key("kind"));
   if (!kind) table.missing("kind", "'fourier', 'samples' or 'hold'");
   switch (*kind) {
     case 0:
       return readFourier(table, mechanism);
     case 1:
-      return readMotorSamples(table, mechanism);
+      return readMotorSamples(table, mechanism, map, out);
     default:
       return readHold(table, mechanism);
   }
@@ -113,7 +120,8 @@ void takeNumbers(const TomlSection& table, MechanismParameters& machine) {
   }
 }
 
-void assemble(const TomlSection& document, ModelReader reader, MechanismScenario& out) {
+void assemble(const TomlSection& document, ModelReader reader, const std::vector<std::string>& map,
+              MechanismScenario& out) {
   requireOneMachine(document);
   document.allowOnly(mechanismTable(""));
   Scenario common;
@@ -133,7 +141,7 @@ void assemble(const TomlSection& document, ModelReader reader, MechanismScenario
   out.read = reader(out.model, readChoices(table));
   if (const auto numbers = table.section("numbers")) takeNumbers(*numbers, out.read.machine);
   out.mechanism = std::make_shared<Mechanism>(out.read.machine, output);
-  out.trajectory = readMotion(document.requiredSection("trajectory"), *out.mechanism);
+  out.trajectory = readMotion(document.requiredSection("trajectory"), *out.mechanism, map, out);
 }
 
 }  // namespace
@@ -148,14 +156,15 @@ bool isMechanism(const std::string& text) {
 
 bool isMechanismFile(const std::filesystem::path& file) { return isMechanism(scenarioText(file)); }
 
-MechanismScenario parseMechanism(const std::string& text, const std::filesystem::path& file, ModelReader reader) {
+MechanismScenario parseMechanism(const std::string& text, const std::filesystem::path& file, ModelReader reader,
+                                 const std::vector<std::string>& map) {
   const toml::table table = parseToml(text, file.string());
   const TomlSection document(table, "", file.string());
   MechanismScenario out;
   out.file = file;
   out.text = text;
   try {
-    assemble(document, reader, out);
+    assemble(document, reader, map, out);
     return out;
   } catch (const PlacedError& error) {
     throw error.in(text);

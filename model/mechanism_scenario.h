@@ -49,6 +49,8 @@ struct MechanismScenario {
   ModelRead read;
   std::shared_ptr<const Mechanism> mechanism;
   std::shared_ptr<const MotorTrajectory> trajectory;
+  std::string motion_read_as;       ///< how the motion's file was read, with its name; empty if it is by the contract
+  std::vector<std::string> mapped;  ///< entries of the user's map that named the columns of that file
   SimulationSettings simulation;
   std::vector<AcceptanceLimit> acceptance;
   std::optional<EffortTolerance> tolerance;
@@ -59,26 +61,29 @@ bool isMechanism(const std::string& text);
 /// Returns the same of a file. Throws ScenarioError if it cannot be read.
 bool isMechanismFile(const std::filesystem::path& file);
 
-/// Reads and checks a whole scenario with `[mechanism]`; `file` names it in errors and anchors relative paths. Throws
-/// ScenarioError, and what `reader` throws.
+/// Reads and checks a whole scenario with `[mechanism]`; `file` names it in errors and anchors relative paths. `map` is
+/// for its motion's file, as for readMotorTable(). Throws ScenarioError, and what `reader` throws.
 MechanismScenario parseMechanism(const std::string& text, const std::filesystem::path& file,
-                                 ModelReader reader = partModelReader());
+                                 ModelReader reader = partModelReader(), const std::vector<std::string>& map = {});
 MechanismScenario readMechanism(const std::filesystem::path& file, ModelReader reader = partModelReader());
 
 /// The motors' motion in a file, as `kind = "samples"` reads it, and its instants.
 struct MotorSamples {
   std::vector<double> t;
   std::shared_ptr<const MotorTrajectory> trajectory;
-  double quantum = 0;  ///< half a unit of the last digit of the coarsest coordinate, rad or m; 0 if unknown
+  double quantum = 0;        ///< half a unit of the last digit of the coarsest coordinate, rad or m; 0 if unknown
+  std::string read_as = {};  ///< "FILE: read as: …"; empty for a file by the contract
+  std::vector<std::string> mapped = {};  ///< as in MotorTable
 };
-/// Throws CsvError.
-MotorSamples readMotorSamples(const std::filesystem::path& file, const Mechanism& mechanism);
+/// `map` is as for readMotorTable(). Throws CsvError.
+MotorSamples readMotorSamples(const std::filesystem::path& file, const Mechanism& mechanism,
+                              const std::vector<std::string>& map = {});
 
 /// Returns the names of a motor's columns: "q_1_rad", "qdot_1_rad_s", "qddot_1_rad_s2", "tau_1_Nm", or with m and N.
 std::string motorColumn(const Mechanism& mechanism, std::size_t k, const char* quantity);
 
-/// Reads one quantity of all motors ("q", "qdot", "qddot") from a table, a row for each of its rows: columns by number
-/// or by the joint's own name. Empty if the first motor has none and it is not `required`; else throws CsvError.
+/// Takes one quantity of all motors ("q", "qdot", "qddot") from a MotorTable's table, a row for each of its rows. Empty
+/// if the first motor has none and it is not `required`; else throws CsvError.
 Eigen::MatrixXd motorColumns(const CsvTable& table, const Mechanism& mechanism, const char* quantity, bool required);
 
 }  // namespace ursula

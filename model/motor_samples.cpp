@@ -3,59 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "base/csv.h"
-#include "base/csv_dialect.h"
-#include "base/csv_digits.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "model/mechanism_scenario.h"
+#include "model/motor_table.h"
 
 namespace ursula {
 namespace {
-
-/// Returns the same table in s, rad and m, by columns in ms, us, degrees and mm.
-CsvTable inSi(CsvTable table) {
-  const std::tuple<const char*, const char*, double> units[] = {
-      {"_ms", "_s", 1e-3}, {"_us", "_s", 1e-6}, {"_deg", "_rad", degree}, {"_mm", "_m", 1e-3}};
-  for (std::size_t c = 0; c < table.names.size(); ++c)
-    for (const auto& [from, to, factor] : units) {
-      std::string& name = table.names[c];
-      const std::size_t at = name.find(from);
-      const bool of_time = std::string(to) == "_s";
-      if (at == std::string::npos || (of_time && name != std::string("t") + from)) continue;
-      const std::size_t end = at + std::string(from).size();
-      if (end < name.size() && name.compare(end, 2, "_s") != 0) continue;
-      const std::string si = name.substr(0, at) + to + name.substr(end);
-      if (table.find(si) != nullptr) continue;
-      name = si;
-      for (double& value : table.columns[c]) value *= factor;
-      break;
-    }
-  return table;
-}
-
-/// Returns the column of one quantity of motor k, by number or by the joint's own name; null if there is none.
-const std::vector<double>* columnOf(const CsvTable& table, const Mechanism& mechanism, std::size_t k, const char* of) {
-  const std::string named = motorColumn(mechanism, k, of);
-  if (const auto* found = table.find(named)) return found;
-  const std::string number = std::to_string(k + 1);
-  const std::string unit = named.substr(named.find('_' + number + '_') + number.size() + 1);
-  const std::string joint = mechanism.motor(k).name;
-  return table.find(std::string(of) == "q" ? joint + unit : fmt::format("{}_{}{}", of, joint, unit));
-}
-
-/// Half a unit of the last printed digit of each column, in the units of `si`.
-std::vector<double> halfDigitsOf(const CsvTable& printed, const CsvTable& si) {
-  std::vector<double> out;
-  for (std::size_t c = 0; c < printed.names.size(); ++c) {
-    const std::vector<double>& values = printed.columns[c];
-    const auto some = std::find_if(values.begin(), values.end(), [](double value) { return value != 0; });
-    const double unit = some == values.end() ? 1 : si.columns[c][some - values.begin()] / *some;
-    out.push_back(unit * halfDigit(printed, printed.names[c]));
-  }
-  return out;
-}
 
 /// Refuses derivatives that contradict what they belong to. Between two instants the mean slope is a derivative's value
 /// there; it lies within the range of the nearest four derivatives, as far as that range goes on either side. Friction
@@ -129,26 +85,27 @@ void requireDerivatives(const CsvTable& table, const Mechanism& mechanism, const
   const Derivatives derivatives(table, half);
   for (std::size_t k = 0; k < mechanism.motorCount(); ++k)
     for (const auto& [of, by] : {std::pair("q", "qdot"), {"qdot", "qddot"}}) {
-      const std::vector<double>*values = columnOf(table, mechanism, k, of), *rates = columnOf(table, mechanism, k, by);
+      const auto* values = table.find(motorColumn(mechanism, k, of));
+      const auto* rates = table.find(motorColumn(mechanism, k, by));
       if (values != nullptr && rates != nullptr) derivatives.require(*values, *rates);
     }
 }
 
 }  // namespace
 
-MotorSamples readMotorSamples(const std::filesystem::path& file, const Mechanism& mechanism) {
-  const std::string text = readCsvText(file);
-  CsvOptions options;
-  options.dialect = guessDialect(text, file);
-  const CsvTable printed = parseCsv(text, file, options), read = inSi(printed);
-  const std::vector<double> half = halfDigitsOf(printed, read);
+MotorSamples readMotorSamples(const std::filesystem::path& file, const Mechanism& mechanism,
+                              const std::vector<std::string>& map) {
+  const MotorTable found = readMotorTable(file, mechanism, map);
+  const CsvTable& read = found.table;
+  const std::vector<double>& half = found.half_digits;
   const Eigen::MatrixXd rates = motorColumns(read, mechanism, "qdot", false);
   const Eigen::MatrixXd accelerations = motorColumns(read, mechanism, "qddot", false);
   MotorSamples out;
   out.t = read.at("t_s");
+  out.mapped = found.mapped;
+  if (!found.read_as.empty()) out.read_as = fmt::format("{}: read as: {}", shownPath(file.string()), found.read_as);
   for (std::size_t k = 0; k < mechanism.motorCount(); ++k)
-    if (const auto* column = columnOf(read, mechanism, k, "q"))
-      out.quantum = std::max(out.quantum, half[column - read.columns.data()]);
+    out.quantum = std::max(out.quantum, half[&read.at(motorColumn(mechanism, k, "q")) - read.columns.data()]);
   requireDerivatives(read, mechanism, half);
   try {
     out.trajectory = makeMotorSamples(out.t, motorColumns(read, mechanism, "q", true), rates, accelerations);
@@ -163,9 +120,9 @@ Eigen::MatrixXd motorColumns(const CsvTable& table, const Mechanism& mechanism, 
   Eigen::MatrixXd out;
   const auto n = static_cast<Eigen::Index>(mechanism.motorCount());
   for (Eigen::Index k = 0; k < n; ++k) {
-    const std::vector<double>* column = columnOf(table, mechanism, k, of);
-    if (column == nullptr && !required && k == 0) return out;
-    if (column == nullptr) column = &table.at(motorColumn(mechanism, k, of));
+    const std::string name = motorColumn(mechanism, k, of);
+    if (k == 0 && !required && table.find(name) == nullptr) return out;
+    const std::vector<double>* column = &table.at(name);
     if (k == 0) out.resize(static_cast<Eigen::Index>(column->size()), n);
     out.col(k) = Eigen::Map<const Eigen::VectorXd>(column->data(), static_cast<Eigen::Index>(column->size()));
   }

@@ -76,8 +76,12 @@ class Translation {
 std::string scenarioJson(const Scenario& scenario) {
   if (!scenario.isAsRead())
     throw ScenarioError(fmt::format("{}: error: a scenario that a program made has no document", scenario.name));
-  toml::table document = parseToml(scenario.text, scenario.file.string());
-  makeFilesAbsolute(document, scenario.file);
+  return scenarioJson(scenario.text, scenario.file);
+}
+
+std::string scenarioJson(const std::string& text, const std::filesystem::path& file) {
+  toml::table document = parseToml(text, file.string());
+  makeFilesAbsolute(document, file);
   return jsonText(jsonOf(document));
 }
 

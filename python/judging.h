@@ -93,6 +93,10 @@ struct EffortRows {
 /// Throws TypeError unless both are given, ValueError for other shapes.
 EffortRows effortRows(const pybind11::object& torques, const pybind11::object& t, pybind11::ssize_t width);
 
+/// Takes efforts (N, n) at instants, s, for a mechanism. Throws ValueError.
+GivenEfforts motorEffortsAt(const MechanismWithSolver& given, const pybind11::object& torques,
+                            const pybind11::object& t, const std::string& name);
+
 ValidationResult validated(const MechanismWithSolver& given, const Asked& asked);
 
 void addJudging(pybind11::module_& module);

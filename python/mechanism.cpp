@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <ursula/scenario.h>
 
 #include <algorithm>
 #include <cmath>
@@ -132,6 +133,18 @@ void addBody(py::module_& module) {
       });
 }
 
+MechanismMotion directKinematics(const MechanismWithSolver& self, const py::object& coordinates) {
+  const py::array_t<double> given = rowsOf(coordinates, self.motors(), "coordinates");
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(self.motors());
+  std::vector<MotorMotion> instants;
+  for (py::ssize_t k = 0; k < given.shape(0); ++k) {
+    const Eigen::VectorXd q = Eigen::Map<const Eigen::VectorXd>(given.data() + k * self.motors(), self.motors());
+    instants.push_back({0, q, rest, rest});
+  }
+  const Unlocked unlocked;
+  return assemblies(self, instants);
+}
+
 std::vector<std::string> motorNames(const MechanismWithSolver& self) {
   std::vector<std::string> out;
   for (std::size_t k = 0; k < self.scenario.mechanism->motorCount(); ++k)
@@ -153,6 +166,22 @@ std::shared_ptr<MechanismWithSolver> mechanismOf(const std::filesystem::path& fi
 
 std::shared_ptr<MechanismWithSolver> mechanismOf(const std::string& text, const std::filesystem::path& file) {
   return warnedOf([&] { return parseMechanism(text, file); });
+}
+
+MechanismMotion assemblies(const MechanismWithSolver& self, const std::vector<MotorMotion>& instants) {
+  const LoopMotion& path = self.along().motion();
+  loops::LoopPose pose = path.near(0);
+  LoopWork work;
+  path.solver().kinematics(path.trajectory().at(0), pose, work);
+  MechanismMotion out = MechanismMotion::of(static_cast<Eigen::Index>(instants.size()), self.motors(),
+                                            namesOf(path.solver().joints(work)));
+  for (std::size_t k = 0; k < instants.size(); ++k) {
+    path.solver().moveTo(instants[k].q, pose);
+    path.solver().kinematics(instants[k], pose, work);
+    pose = work.pose;
+    out.set(static_cast<Eigen::Index>(k), instants[k], path.solver().joints(work));
+  }
+  return out;
 }
 
 std::vector<std::string> checked(const MechanismWithSolver& self) {
@@ -188,6 +217,14 @@ void addMechanism(py::module_& module) {
       .def("motion", &motionAt, py::arg("t"), words::mechanism_at)
       .def("inverse_dynamics", &inverseDynamics, py::arg("m"), words::mechanism_inverse_dynamics)
       .def("direct_dynamics", &directDynamics, py::arg("m"), py::arg("tau"), words::mechanism_direct_dynamics)
+      .def("forward_dynamics", &directDynamics, py::arg("m"), py::arg("tau"), words::mechanism_direct_dynamics)
+      .def("direct_kinematics", &directKinematics, py::arg("coordinates"), words::mechanism_direct_kinematics)
+      .def(
+          "to_dict",
+          [](const S& self) {
+            return py::module_::import("json").attr("loads")(scenarioJson(self.scenario.text, self.scenario.file));
+          },
+          words::to_dict)
       .def(
           "to_toml", [](const S& self) { return self.scenario.text; }, words::to_toml)
       .def("__repr__", [](const S& self) { return "<ursula.MechanismScenario '" + self.scenario.name + "'>"; });

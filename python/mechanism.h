@@ -61,6 +61,10 @@ namespace ursula::python {
 std::shared_ptr<MechanismWithSolver> mechanismOf(const std::filesystem::path& file);
 std::shared_ptr<MechanismWithSolver> mechanismOf(const std::string& text, const std::filesystem::path& file);
 
+/// Returns the assemblies for the motors' motion at successive instants, each continued from the one before, the first
+/// from that at the start of the scenario's motion. Is called without Python's lock. Throws LoopError.
+MechanismMotion assemblies(const MechanismWithSolver& self, const std::vector<MotorMotion>& instants);
+
 /// Tries the motion. Returns the warnings of the model. Is called without Python's lock.
 std::vector<std::string> checked(const MechanismWithSolver& self);
 

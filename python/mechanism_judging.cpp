@@ -93,19 +93,6 @@ MechanismSimulator simulatorOf(const Asked& asked, py::ssize_t motors) {
   return out;
 }
 
-GivenEfforts effortsOf(const MechanismWithSolver& given, const Asked& asked) {
-  const auto [instants, rows, count] = effortRows(asked.torques, asked.t, given.motors());
-  const std::vector<double> t(instants.data(), instants.data() + count);
-  std::vector<MotorEfforts> efforts;
-  for (std::size_t k = 0; k < count; ++k)
-    efforts.emplace_back(Eigen::Map<const Eigen::VectorXd>(rows.data() + given.motors() * k, given.motors()));
-  try {
-    return givenEfforts(asked.name, t, efforts, *given.scenario.mechanism, given.scenario.trajectory->duration());
-  } catch (const CsvError& error) {
-    throw py::value_error(byIndex(error.what(), "t"));
-  }
-}
-
 }  // namespace
 
 py::array_t<double> answerOf(const py::object& answer, std::size_t instants, py::ssize_t width,
@@ -147,12 +134,26 @@ EffortRows effortRows(const py::object& torques, const py::object& t, py::ssize_
   return out;
 }
 
+GivenEfforts motorEffortsAt(const MechanismWithSolver& given, const py::object& torques, const py::object& t,
+                            const std::string& name) {
+  const auto [instants, rows, count] = effortRows(torques, t, given.motors());
+  const std::vector<double> at(instants.data(), instants.data() + count);
+  std::vector<MotorEfforts> efforts;
+  for (std::size_t k = 0; k < count; ++k)
+    efforts.emplace_back(Eigen::Map<const Eigen::VectorXd>(rows.data() + given.motors() * k, given.motors()));
+  try {
+    return givenEfforts(name, at, efforts, *given.scenario.mechanism, given.scenario.trajectory->duration());
+  } catch (const CsvError& error) {
+    throw py::value_error(byIndex(error.what(), "t"));
+  }
+}
+
 ValidationResult validated(const MechanismWithSolver& given, const Asked& asked) {
   MechanismScenario scenario = given.scenario;
   setTolerance(asked.tolerance, scenario.tolerance);
   MechanismSubject subject;
   if (!asked.torques.is_none() || !asked.t.is_none()) {
-    subject.given = std::make_shared<const GivenEfforts>(effortsOf(given, asked));
+    subject.given = std::make_shared<const GivenEfforts>(motorEffortsAt(given, asked.torques, asked.t, asked.name));
     subject.about = {asked.name, Formulation::external, CalledBy::torques};
   } else if (!asked.solver.is_none()) {
     refuseUnlessFunction(asked.solver, "a MechanismMotion");

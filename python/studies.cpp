@@ -25,7 +25,7 @@ namespace ursula::python {
 
 /// A Simulation in NumPy's terms, for Python.
 struct Simulated {
-  Motions motion;
+  pybind11::object motion;  ///< a Motion, or a MechanismMotion
   pybind11::array_t<double> tau;
   std::string gave_up;
 };
@@ -46,10 +46,39 @@ SimulationEngine engineOf(const std::string& name) {
   throw py::value_error("engine: '" + name + "', expected 'noc' or 'simbody'");
 }
 
-Simulated simulated(const ScenarioWithSolver& self, const py::object& torques, const py::object& t,
-                    const std::string& engine, std::optional<double> time_limit) {
+Simulated simulatedMechanism(const MechanismWithSolver& self, const py::object& torques, const py::object& t,
+                             SimulationEngine engine, std::optional<double> time_limit) {
+  const GivenEfforts given = motorEffortsAt(self, torques, t, "torques");
+  MechanismMotion motion;
+  MechanismSimulation run;
+  try {
+    run = interruptible(time_limit.value_or(0), [&](const ValidationOptions& options) {
+      const Deadline deadline(options.time_limit, options.asked_to_end);
+      MechanismSimulation out = simulateMechanism(self.along(), engine, effortSpline(given), given.t,
+                                                  self.scenario.simulation.tolerance, deadline);
+      std::vector<MotorMotion> instants;
+      for (const MechanismInstant& each : out.instants) instants.push_back(each.motion);
+      motion = assemblies(self, instants);
+      return out;
+    });
+  } catch (const CsvError& error) {
+    throw py::value_error(inPython(error.what()));
+  }
+  const auto count = static_cast<py::ssize_t>(run.instants.size());
+  py::array_t<double> tau({count, self.motors()});
+  for (py::ssize_t k = 0; k < count; ++k)
+    Eigen::Map<Eigen::VectorXd>(tau.mutable_data() + k * self.motors(), self.motors()) = run.instants[k].efforts;
+  return {py::cast(std::move(motion)), tau, run.gave_up};
+}
+
+Simulated simulated(const py::object& s, const py::object& torques, const py::object& t, const std::string& engine,
+                    std::optional<double> time_limit) {
   const SimulationEngine chosen = engineOf(engine);
   requirePositive("time_limit", time_limit);
+  if (py::isinstance<MechanismWithSolver>(s))
+    return simulatedMechanism(s.cast<const MechanismWithSolver&>(), torques, t, chosen, time_limit);
+  requireScenario("simulate", s);
+  const auto& self = s.cast<const ScenarioWithSolver&>();
   const TorqueFile given = torquesAt(self, torques, t, "torques");
   Simulation run;
   try {
@@ -61,7 +90,7 @@ Simulated simulated(const ScenarioWithSolver& self, const py::object& torques, c
   }
   const py::array_t<double> tau =
       table(run.torques, motor_count, [](const Vector6d& row, double* to) { Eigen::Map<Vector6d>{to} = row; });
-  return {{std::move(run.motions)}, tau, run.gave_up};
+  return {py::cast(Motions{std::move(run.motions)}), tau, run.gave_up};
 }
 
 /// Warnings, and what the scenario cannot show as JSON; "null" if this build knows no mistakes.
@@ -151,17 +180,18 @@ void addStudies(py::module_& module) {
   simulation
       .def(py::pickle([](const Simulated& self) { return py::make_tuple(self.motion, self.tau, self.gave_up); },
                       [](const py::tuple& state) {
-                        return Simulated{state[0].cast<Motions>(), state[1].cast<py::array_t<double>>(),
+                        return Simulated{state[0].cast<py::object>(), state[1].cast<py::array_t<double>>(),
                                          state[2].cast<std::string>()};
                       }))
-      .def_readonly("motion", &Simulated::motion, "Motion of the platform at the instants reached.")
-      .def_readonly("tau", &Simulated::tau, "Efforts at the same instants, N m or N: (N, 6).")
+      .def_readonly("motion", &Simulated::motion,
+                    "Motion of the platform, or of a mechanism's motors, at the instants reached.")
+      .def_readonly("tau", &Simulated::tau, "Efforts at the same instants, N m or N: (N, 6), or (N, n).")
       .def_property_readonly(
           "gave_up",
           [](const Simulated& self) { return self.gave_up.empty() ? py::object(py::none()) : py::str(self.gave_up); },
           "The reason why the last instant was not reached; None if it was.")
       .def("__repr__", [](const Simulated& self) {
-        return "<ursula.Simulation of " + std::to_string(self.motion.rows.size()) + " instants" +
+        return "<ursula.Simulation of " + std::to_string(py::len(self.motion)) + " instants" +
                (self.gave_up.empty() ? "" : ", gave up") + ">";
       });
   module.def("simulate", &simulated, py::arg("s"), py::arg("torques"), py::arg("t"), py::kw_only(),

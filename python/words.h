@@ -31,6 +31,11 @@ constexpr const char* mechanism_direct_dynamics =
 (N, n), rad/s² or m/s². The motion's own accelerations are not read. Raises ValueError for other shapes, and PoseError
 as motion() does.)";
 
+constexpr const char* mechanism_direct_kinematics =
+    R"(Computes the assemblies for coordinates of the n motors, rad or m, (N, n), as a MechanismMotion at rest, with t = 0.
+Each row continues the assembly of the row before, the first that at the start of the motion. Raises ValueError for
+other shapes, and PoseError as motion() does.)";
+
 constexpr const char* body = "A body of a mechanism, at the pose of its model file.";
 
 constexpr const char* module =
@@ -132,7 +137,7 @@ finite numbers, or for legs of other kinds, and RuntimeError if a pose may be mi
 constexpr const char* simulate =
     R"(Computes the motion that efforts (N, 6), N m or N, at instants t (N,), s, produce, as a Simulation. It starts in
 the commanded state at the first instant; a spline joins the efforts. engine: 'noc', by (36), or 'simbody', the
-closed loop. time_limit: wall time, s, after which the simulation stops. Raises ValueError for fewer than six
+closed loop. For a MechanismScenario efforts are (N, n). time_limit: wall time, s, after which the simulation stops. Raises ValueError for fewer than six
 instants.)";
 
 constexpr const char* simulation = "The motion that efforts produce; made by simulate.";

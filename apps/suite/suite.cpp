@@ -32,7 +32,7 @@ std::vector<std::filesystem::path> scenariosIn(const std::filesystem::path& fold
   return files;
 }
 
-SuiteMember readMember(const std::filesystem::path& file) {
+SuiteMember readMember(const std::filesystem::path& file, const std::vector<std::string>& map) {
   SuiteMember member;
   member.name = file.string();
   member.file = file;
@@ -40,7 +40,7 @@ SuiteMember readMember(const std::filesystem::path& file) {
     std::string text = scenarioNotModel(file);
     if (isMechanism(text)) {
       member.mechanism =
-          std::make_shared<const MechanismScenario>(parseMechanism(text, namedInput(file), partModelReader()));
+          std::make_shared<const MechanismScenario>(parseMechanism(text, namedInput(file), partModelReader(), map));
       member.name = member.mechanism->name;
       static_cast<void>(MechanismAlong(*member.mechanism));
       return member;
@@ -71,10 +71,11 @@ std::filesystem::path effortsBeside(const SuiteMember& member) {
   return csv;
 }
 
-void readFolder(const std::filesystem::path& folder, std::vector<SuiteMember>& members) {
+void readFolder(const std::filesystem::path& folder, const std::vector<std::string>& map,
+                std::vector<SuiteMember>& members) {
   const std::vector<std::filesystem::path> files = scenariosIn(folder);
   for (const std::filesystem::path& file : files) {
-    members.push_back(readMember(file));
+    members.push_back(readMember(file, map));
     members.back().torques = effortsBeside(members.back());
   }
   if (!files.empty()) return;
@@ -150,14 +151,15 @@ class SuiteRun {
 
 }  // namespace
 
-std::vector<SuiteMember> readSuite(const std::vector<std::filesystem::path>& arguments) {
+std::vector<SuiteMember> readSuite(const std::vector<std::filesystem::path>& arguments,
+                                   const std::vector<std::string>& map) {
   std::vector<SuiteMember> members;
   for (const std::filesystem::path& argument : arguments) {
     std::error_code ignored;
     if (std::filesystem::is_directory(argument, ignored))
-      readFolder(argument, members);
+      readFolder(argument, map, members);
     else
-      members.push_back(readMember(argument));
+      members.push_back(readMember(argument, map));
   }
   checkNames(members);
   return members;

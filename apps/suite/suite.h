@@ -32,8 +32,9 @@ struct SuiteMember {
 /// which gives its *.toml files, sorted, without subfolders. Checks that every motion is possible (inverse kinematics
 /// and Jacobians at the judged instants and many between them). A problem of one member is its own error; so is a
 /// folder without scenarios. Throws ScenarioError if two members share a name and thus a folder, or if one has the name
-/// of a suite file.
-std::vector<SuiteMember> readSuite(const std::vector<std::filesystem::path>& arguments);
+/// of a suite file. `map` is for the motions' files of mechanisms.
+std::vector<SuiteMember> readSuite(const std::vector<std::filesystem::path>& arguments,
+                                   const std::vector<std::string>& map = {});
 
 /// The same if all are valid; otherwise throws ScenarioError with every error, one per line.
 std::vector<SuiteMember> allOrNothing(std::vector<SuiteMember> members);

@@ -43,6 +43,7 @@ std::string scaleGroupOf(const std::string& channel) {
   static const std::map<std::string, std::string> of = {
       {"error_p_m", "p_*_m"},
       {"closure_p_m", "p_*_m"},
+      {"closure_m", "output_*_m"},
       {"error_q_rad", "q_*"},
       {"closure_v_m_s", "v_*_m_s"},
       {"error_acceleration_m_s2", "a_*_m_s2"},
@@ -255,7 +256,8 @@ Comparison compare(const TimeSeries& reference, const TimeSeries& test, const Co
     const std::vector<double>* values = found->second;
     ChannelComparison channel;
     channel.name = name;
-    channel.group = scales.count(scaleGroupOf(name)) != 0 ? scaleGroupOf(name) : groupOf(name);
+    const auto other = scales.find(scaleGroupOf(name));
+    channel.group = other != scales.end() && other->second > 0 ? other->first : groupOf(name);
     channel.scale = scales.at(channel.group);
     channel.tolerance = options.tolerance * channel.scale;
     if (rows.empty() && out.left_out > 0) channel.verdict = Verdict::inconclusive;

@@ -7,11 +7,13 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "apps/mechanism.h"
 #include "apps/output.h"
+#include "apps/validate_options.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
 #include "parts/poses/direct_kinematics.h"
@@ -23,6 +25,7 @@ namespace {
 
 struct DirectOptions {
   std::string scenario, motion, phi, d, coordinates, out = "-";
+  std::vector<std::string> map;
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -221,13 +224,14 @@ int directOfMechanism(const MechanismScenario& scenario, const DirectOptions& op
         fmt::format("{} has [mechanism], expected FILE.csv with the motors' coordinates and no --phi, --d or "
                     "--coordinates",
                     scenario.file.string()));
-  return directOfMechanism(scenario, options.motion, options.out);
+  return directOfMechanism(scenario, options.motion, options.out, options.map);
 }
 
 /// Refuses an option that does not suit the machine.
 int direct(const DirectOptions& options) {
-  const AnyScenario any = readAny(options.scenario, {options.out});
+  const AnyScenario any = readAny(options.scenario, {options.out}, options.map);
   if (any.mechanism) return directOfMechanism(*any.mechanism, options);
+  requireUsed(options.map, any);
   const Scenario& scenario = *any.manipulator;
   if (!options.motion.empty())
     throw UsageError(fmt::format("{}: {} has [manipulator], expected one pose: --phi, --d or --coordinates",
@@ -269,6 +273,7 @@ void addDirect(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--d", options->d, "Lengths or strokes of six UPS or PUS legs, m, separated by commas: d_1,...,d_6");
   verb->add_option("--coordinates", options->coordinates,
                    "Driven coordinates of legs of any kinds, rad or m, in the motors' order, separated by commas");
+  addMapOption(*verb, options->map);
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
   verb->footer(
       "Example: ursula direct my.toml --phi 0.1,0.2,0.1,0.2,0.1,0.2\n"

@@ -3,8 +3,11 @@
 #include <vector>
 
 #include "apps/mechanism.h"
+#include "apps/output.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
+#include "base/text.h"
+#include "model/motor_table.h"
 #include "parts/poses/direct_mechanism.h"
 #include "validation/mechanism/output_pose.h"
 #include "validation/mechanism/validate_mechanism.h"
@@ -48,8 +51,14 @@ class AssemblyTable {
 
 }  // namespace
 
-int directOfMechanism(const MechanismScenario& scenario, const std::filesystem::path& motion, const std::string& out) {
-  const CsvTable given = readCsv(motion);
+int directOfMechanism(const MechanismScenario& scenario, const std::filesystem::path& motion, const std::string& out,
+                      const std::vector<std::string>& map) {
+  const MotorTable read = readMotorTable(motion, *scenario.mechanism, map, false);
+  std::vector<std::string> used = scenario.mapped;
+  used.insert(used.end(), read.mapped.begin(), read.mapped.end());
+  requireUsed(map, used);
+  if (!read.read_as.empty()) say("{}: read as: {}\n", shownPath(motion.string()), read.read_as);
+  const CsvTable& given = read.table;
   const Eigen::MatrixXd q = motorColumns(given, *scenario.mechanism, "q", true);
   const std::vector<double>* t = given.find("t_s");
   if (q.rows() == 0)

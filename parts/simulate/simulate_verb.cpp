@@ -31,7 +31,8 @@ std::string whatIsMissing(const Simulation& run, const TorqueFile& file, const S
 }
 
 int simulateVerb(const SimulateOptions& options) {
-  const AnyScenario any = openAny(options.scenario, {options.out});
+  const AnyScenario any = openAny(options.scenario, {options.out}, options.map);
+  if (options.torques.empty()) requireUsed(options.map, any);
   if (any.mechanism) return simulateMechanismVerb(*any.mechanism, options);
   const Scenario& scenario = *any.manipulator;
   if (options.torques.empty())

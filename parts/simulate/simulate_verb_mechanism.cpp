@@ -38,7 +38,7 @@ int simulateMechanismVerb(const MechanismScenario& scenario, const SimulateOptio
     MotorEffortHistory efforts = [&](double t) { return along.motion().inverseDynamics(t, work); };
     std::vector<double> instants = equallySpaced(duration, scenario.simulation.samples);
     if (!options.torques.empty()) {
-      const GivenEfforts given = readEffortsAloud(options.torques, options.map, scenario);
+      const GivenEfforts given = readEffortsAloud(options.torques, options.map, scenario.mapped, scenario);
       efforts = effortSpline(given);
       instants = given.t;
     }

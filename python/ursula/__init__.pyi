@@ -141,6 +141,12 @@ class MechanismScenario:
         """Efforts of the n motors, N m, or N if a motor slides: (N, n)."""
     def direct_dynamics(self, m: MechanismMotion, tau: npt.ArrayLike) -> Array:
         """Accelerations of the n motors under efforts tau, N m or N, (N, n): rad/s² or m/s², (N, n)."""
+    def forward_dynamics(self, m: MechanismMotion, tau: npt.ArrayLike) -> Array:
+        """The same as direct_dynamics."""
+    def direct_kinematics(self, coordinates: npt.ArrayLike) -> MechanismMotion:
+        """The assemblies for coordinates of the n motors, rad or m, (N, n), each continued from the one before, at rest."""
+    def to_dict(self) -> dict[str, Any]:
+        """The scenario's source as a dict; scenario(s.to_dict()) has the same numbers."""
     def to_toml(self) -> str:
         """The text of the scenario's source."""
 
@@ -394,11 +400,11 @@ class Simulation:
     """The motion that efforts produce."""
 
     @property
-    def motion(self) -> Motion:
-        """Motion of the platform at the instants reached."""
+    def motion(self) -> Any:
+        """A Motion of the platform at the instants reached, or a MechanismMotion."""
     @property
     def tau(self) -> Array:
-        """Efforts at the same instants, N m or N: (N, 6)."""
+        """Efforts at the same instants, N m or N: (N, 6), or (N, n)."""
     @property
     def gave_up(self) -> str | None:
         """The reason why the last instant was not reached."""
@@ -517,14 +523,14 @@ def excite(s: Scenario, *, period: float = 0.0, harmonics: int = 5, tries: int =
     """A periodic motion that shows the machine's numbers, as the text of a samples file."""
 
 def simulate(
-    s: Scenario,
+    s: Scenario | MechanismScenario,
     torques: npt.ArrayLike,
     t: npt.ArrayLike,
     *,
     engine: Literal["noc", "simbody"] = "simbody",
     time_limit: float | None = None,
 ) -> Simulation:
-    """Computes the motion that efforts (N, 6) at instants t (N,) produce."""
+    """Computes the motion that efforts (N, 6), or (N, n) of a mechanism, at instants t (N,) produce."""
 
 def read_scenario(path: str | os.PathLike[str]) -> Any:
     """Reads and checks a scenario file (TOML): a Scenario, or a MechanismScenario if it has [mechanism]."""

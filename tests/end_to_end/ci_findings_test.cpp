@@ -13,6 +13,7 @@ namespace ursula {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 /// A four-bar with its efforts times a factor, in a file beside it.
@@ -39,10 +40,12 @@ TEST_F(CiFindings, areAnnotationsOfGitHub) {
   EXPECT_EQ(wrong.exit_code, 1);
   EXPECT_THAT(wrong.out, StartsWith("::error file=suite/fourbar.toml,line=1,col=1,title=ursula%3A fail::fourbar: "));
   EXPECT_THAT(wrong.out, HasSubstr("1 %25"));
+  EXPECT_THAT(wrong.out, HasSubstr("; likely cause: "));
   EXPECT_EQ(std::count(wrong.out.begin(), wrong.out.end(), '\n'), 1) << "one line for a scenario";
   const auto right = ursula_("validate suite/fourbar.toml --format github --out o");
   EXPECT_EQ(right.exit_code, 0);
   EXPECT_THAT(right.out, StartsWith("::notice file=suite/fourbar.toml"));
+  EXPECT_THAT(right.out, Not(HasSubstr("likely cause")));
 }
 
 TEST_F(CiFindings, areSarif) {
@@ -66,6 +69,25 @@ TEST_F(CiFindings, placeBadScenarios) {
   EXPECT_THAT(run.out, HasSubstr("::notice file=suite/fourbar.toml"));
 }
 
+TEST_F(CiFindings, placeRefusedInput) {
+  ursula_.write("bad.toml", "name = \"bad\"\n[mechanism]\nfile = 7\n");
+  writeEfforts("none.csv", 1);
+  ursula_.write("none.csv", "t_s,tau_1_Nm\n0,1\nx,2\n");
+  for (const auto& [call, place] : {std::pair<std::string, std::string>{"bad.toml", "bad.toml,line=3,"},
+                                    {"suite/fourbar.toml --torques none.csv", "none.csv,line=3,"},
+                                    {"suite/fourbar.toml --map nobody=t", "suite/fourbar.toml,line=1,"},
+                                    {"suite/fourbar.toml bad.toml --strict", "bad.toml,line=3,"}}) {
+    const auto run = ursula_("validate " + call + " --format github --out o");
+    EXPECT_EQ(run.exit_code, 2) << call;
+    EXPECT_THAT(run.out, StartsWith("::error file=" + place)) << call;
+    EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 1) << call;
+    EXPECT_NE(run.err, "") << call;
+    EXPECT_EQ(ursula_("validate " + call + " --out o").out, "") << call;
+  }
+  const auto sarif = ursula_("validate bad.toml --format sarif --out o");
+  EXPECT_EQ(nlohmann::json::parse(sarif.out)["runs"][0]["results"].size(), 1);
+}
+
 TEST_F(CiFindings, sayWhatChangedSinceAnEarlierRun) {
   writeEfforts("wrong.csv", 1.01);
   EXPECT_EQ(ursula_("validate suite/fourbar.toml --out old --quiet").exit_code, 0);
@@ -75,7 +97,12 @@ TEST_F(CiFindings, sayWhatChangedSinceAnEarlierRun) {
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.out, HasSubstr("  verdict: pass before, fail now\n"));
   EXPECT_THAT(run.out, HasSubstr("  torque.pointwise: pass before, fail now\n"));
-  const auto none = ursula_("validate suite/fourbar.toml --out new --against nowhere --quiet");
+  const auto nowhere = ursula_("validate suite/fourbar.toml --out other --against nowhere --quiet");
+  EXPECT_EQ(nowhere.exit_code, 2);
+  EXPECT_THAT(nowhere.err, HasSubstr("--against nowhere: no such folder"));
+  EXPECT_FALSE(std::filesystem::exists(ursula_.folder() / "other"));
+  std::filesystem::create_directory(ursula_.folder() / "empty");
+  const auto none = ursula_("validate suite/fourbar.toml --out new --against empty --quiet");
   EXPECT_THAT(none.out, HasSubstr("no earlier summary.json to compare with"));
 }
 

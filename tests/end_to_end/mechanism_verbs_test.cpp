@@ -174,6 +174,12 @@ TEST_F(MechanismVerbs, namesMayHaveQuotes) {
   EXPECT_EQ(check.exit_code, 0) << check.err;
 }
 
+TEST_F(MechanismVerbs, motorsAreNotEmpty) {
+  std::string text = TemporaryFolder::read(ursula_.folder() / "fourbar.toml");
+  ursula_.write("none.toml", text.replace(text.find("[\"crank_hinge\"]"), 15, "[]"));
+  expectRefused(ursula_, {{"check none.toml", "none.toml:4:10: error: mechanism.motors: [], expected the names"}});
+}
+
 /// A sweep of two numbers of the model and one of the motion.
 const std::string swept =
     "scenario = \"delta.toml\"\nwhat = \"inverse\"\ndesign = \"grid\"\nsamples = 11\n"

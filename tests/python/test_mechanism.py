@@ -214,7 +214,8 @@ def test_other_wrong_arguments(quick):
     for call, words in ((lambda: ursula.validate(s, solver="mine"), "expected a function of a MechanismMotion; a command is for"),
                         (lambda: ursula.validate(s, 3), "solver is of type int"),
                         (lambda: s.inverse_dynamics(3), "m is 3 of type int, expected ursula.MechanismMotion"),
-                        (lambda: ursula.simulate(s, [[1.0]], [0.0]), "expected ursula.Scenario"),
+                        (lambda: ursula.simulate(3, [[1.0]], [0.0]), "s is 3 of type int, expected ursula.Scenario"),
+                        (lambda: ursula.simulate(s, [[1.0]], None), "torques are given without t"),
                         (lambda: ursula.validate(3), "s is 3 of type int, expected ursula.Scenario, ursula.MechanismScenario or a path")):
         with pytest.raises(TypeError, match=words):
             call()
@@ -307,3 +308,51 @@ def test_signals_are_heard(call, long_motion):
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
+
+
+def test_what_hexapods_have_mechanisms_have():
+    s = ursula.read_scenario(LOOPS / "delta.toml")
+    t = np.linspace(0, s.duration, 41)
+    m = s.motion(t)
+    tau = s.inverse_dynamics(m)
+    close(s.forward_dynamics(m, tau), m.qddot, 1e-10)
+    again = ursula.scenario(s.to_dict())
+    assert np.array_equal(again.inverse_dynamics(m), tau)
+    assert s.to_dict()["mechanism"]["motors"] == s.motors
+    changed = s.to_dict()
+    changed["mechanism"]["gravity"] = [0.0, 0.0, -1.0]
+    assert not np.allclose(ursula.scenario(changed).inverse_dynamics(m), tau)
+
+
+def test_direct_kinematics_finds_the_joints():
+    s = ursula.read_scenario(LOOPS / "delta.toml")
+    m = s.motion(np.linspace(0, s.duration, 21))
+    found = s.direct_kinematics(m.q)
+    assert np.array_equal(found.q, m.q) and not found.qdot.any() and not found.t.any()
+    for name, values in m.joints.items():
+        close(found.joints[name], values)
+    other = s.direct_kinematics(m.q + 0.01)
+    assert any(np.max(np.abs(other.joints[name] - values)) > 1e-3 for name, values in m.joints.items())
+    with pytest.raises(ValueError, match=r"coordinates: shape \(21, 2\), expected"):
+        s.direct_kinematics(m.q[:, :2])
+    with pytest.raises(ursula.PoseError):
+        s.direct_kinematics([[9.0, 0.0, 0.0]])
+
+
+@pytest.mark.parametrize("engine", ["noc", "simbody"])
+def test_simulate_follows_the_commanded_motion(engine):
+    s = ursula.read_scenario(LOOPS / "delta.toml")
+    t = np.linspace(0, 0.5, 51)
+    m = s.motion(t)
+    tau = s.inverse_dynamics(m)
+    run = ursula.simulate(s, tau, t, engine=engine)
+    assert isinstance(run.motion, ursula.MechanismMotion) and run.gave_up is None
+    close(run.motion.q, m.q, 1e-6)
+    close(run.tau, tau, 1e-9)
+    for name, values in m.joints.items():
+        close(run.motion.joints[name], values, 1e-6)
+    assert np.array_equal(pickle.loads(pickle.dumps(run)).motion.q, run.motion.q)
+    weaker = ursula.simulate(s, 0.99 * tau, t, engine=engine)
+    assert np.max(np.abs(weaker.motion.q - m.q)) > 1e-3
+    with pytest.raises(ValueError, match="torques: shape"):
+        ursula.simulate(s, tau[:, :2], t)

@@ -249,8 +249,9 @@ ValidationResult validateMotion(const Scenario& scenario, const std::filesystem:
 }
 
 ValidationResult validateMotion(const MechanismScenario& scenario, const std::filesystem::path& motion,
-                                const GivenEfforts* efforts, const MechanismOptions& options) {
-  const MotorSamples read = readMotorSamples(motion, *scenario.mechanism);
+                                const GivenEfforts* efforts, const MechanismOptions& options,
+                                const std::vector<std::string>& map) {
+  const MotorSamples read = readMotorSamples(motion, *scenario.mechanism, map);
   requireWithin(read.t, scenario.trajectory->duration(), motion);
   MechanismScenario along = scenario;
   along.trajectory = read.trajectory;

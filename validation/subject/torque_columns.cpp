@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "base/text.h"
-#include "base/utf8.h"
+#include "model/motor_table.h"
 #include "model/torque_names.h"
 
 namespace ursula {
@@ -227,10 +227,8 @@ ColumnMap parseColumnMap(const std::vector<std::string>& texts, const EffortAxes
     const auto fail = [&text](const std::string& what) {
       throw CsvError(fmt::format("--map {}: {}", quoted(text), what));
     };
-    const auto equals = text.find('=');
-    const std::string name(trimmedCell(text.substr(0, equals)));
-    const std::string column =
-        utf8(std::string(equals == std::string::npos ? "" : trimmedCell(std::string_view(text).substr(equals + 1))));
+    const std::pair<std::string, std::string> entry = mapEntry(text);
+    const std::string &name = entry.first, &column = entry.second;
     if (name.empty() || column.empty()) fail(fmt::format("expected NAME=COLUMN, as in {}=tau1", targets[1]));
     const std::optional<ColumnMeaning> meaning = meaningOfTarget(name, motors);
     if (!meaning)
