@@ -96,13 +96,13 @@ TEST(CompareMechanisms, judgesTheLoopsGapByTheMachine) {
     ursula_.write(file, TemporaryFolder::read(std::string(URSULA_VECTORS "/loops/") + file));
   for (const std::string engine : {"noc", "simbody"})
     ASSERT_EQ(ursula_("simulate fourbar.toml --engine " + engine + " --out " + engine + ".csv").exit_code, 0);
-  const UrsulaRun alike = ursula_("compare noc.csv simbody.csv --tol 1e-4");
+  const UrsulaRun alike = ursula_("compare noc.csv simbody.csv --tolerance 1e-4");
   EXPECT_EQ(alike.exit_code, 0) << alike.out << alike.err;
   const CsvTable given = readCsv(ursula_.folder() / "simbody.csv");
   std::vector<std::vector<double>> columns = given.columns;
   columns[std::find(given.names.begin(), given.names.end(), "closure_m") - given.names.begin()][3] = 1e-3;
   ursula_.write("open.csv", csvText(given.names, columns));
-  EXPECT_EQ(ursula_("compare noc.csv open.csv --tol 1e-4").exit_code, 1);
+  EXPECT_EQ(ursula_("compare noc.csv open.csv --tolerance 1e-4").exit_code, 1);
 }
 
 }  // namespace
