@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <regex>
+
+#include "model/effort_units.h"
 
 namespace ursula {
 namespace {
@@ -16,36 +19,35 @@ std::optional<int> timePower(const std::string& unit) {
   return 0;
 }
 
-/// A unit of efforts, without what stands between its parts and in small letters, but for mega and milli.
-struct EffortUnit {
-  std::vector<const char*> spellings;
-  EffortKind kind;
-  int power;
-  double multiplier;
-};
+}  // namespace
+
+double EffortUnit::inSI() const { return multiplier * std::pow(10.0, power); }
 
 /// One pound-force is 0.45359237 kgf, one ounce-force a sixteenth, one inch 0.0254 m, one kgf 9.80665 N (NIST SP 811,
 /// appendix B).
 const std::vector<EffortUnit>& effortUnits() {
   constexpr double kgf = 9.80665, lbf = 0.45359237 * kgf, inch = 0.0254;
   constexpr auto moment = EffortKind::moment, force = EffortKind::force;
-  static const std::vector<EffortUnit> units = {{{"Nm", "nm"}, moment, 0, 1},
-                                                {{"kNm", "knm", "KNm"}, moment, 3, 1},
-                                                {{"mNm", "mnm", "Nmm", "nmm"}, moment, -3, 1},
-                                                {{"Ncm", "ncm"}, moment, -2, 1},
-                                                {{"N", "n"}, force, 0, 1},
-                                                {{"kN", "kn", "KN"}, force, 3, 1},
-                                                {{"mN"}, force, -3, 1},
-                                                {{"kgfm", "kgm"}, moment, 0, kgf},
-                                                {{"kgfcm", "kgcm"}, moment, -2, kgf},
-                                                {{"lbfin", "lbin", "inlbf", "inlb"}, moment, 0, lbf * inch},
-                                                {{"lbfft", "lbft", "ftlbf", "ftlb"}, moment, 0, lbf * 12 * inch},
-                                                {{"ozfin", "ozin", "inozf", "inoz"}, moment, 0, lbf / 16 * inch},
-                                                {{"kgf"}, force, 0, kgf},
-                                                {{"lbf"}, force, 0, lbf},
-                                                {{"ozf"}, force, 0, lbf / 16}};
+  static const std::vector<EffortUnit> units = {
+      {{"Nm", "nm"}, moment, 0, 1},
+      {{"kNm", "knm", "KNm"}, moment, 3, 1},
+      {{"mNm", "mnm", "Nmm", "nmm"}, moment, -3, 1},
+      {{"Ncm", "ncm"}, moment, -2, 1},
+      {{"N", "n"}, force, 0, 1},
+      {{"kN", "kn", "KN"}, force, 3, 1},
+      {{"mN"}, force, -3, 1},
+      {{"kgfm", "kgm"}, moment, 0, kgf, "kgf m"},
+      {{"kgfcm", "kgcm"}, moment, -2, kgf, "kgf cm"},
+      {{"lbfin", "lbin", "inlbf", "inlb"}, moment, 0, lbf * inch, "lbf in"},
+      {{"lbfft", "lbft", "ftlbf", "ftlb"}, moment, 0, lbf * 12 * inch, "lbf ft"},
+      {{"ozfin", "ozin", "inozf", "inoz"}, moment, 0, lbf / 16 * inch, "ozf in"},
+      {{"kgf"}, force, 0, kgf, "kgf"},
+      {{"lbf"}, force, 0, lbf, "lbf"},
+      {{"ozf"}, force, 0, lbf / 16, "ozf"}};
   return units;
 }
+
+namespace {
 
 /// Interprets "Nm", "kN·m", "N mm", "mN.m", "kN", "kgf cm"; nullopt for mega, which in lower case looks like milli.
 std::optional<ColumnMeaning> effortOf(int motor, std::string unit) {

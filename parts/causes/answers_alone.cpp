@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "base/text.h"
+#include "parts/causes/few_digits.h"
 
 namespace ursula {
 namespace {
@@ -26,44 +26,12 @@ Explanation ofDigits(const std::string& text) {
   return out;
 }
 
-bool isSinglePrecision(const ExternalTorques& torques) {
-  return torques.file.all_single && holdsForAll(torques, [&](std::size_t k, int i) {
-           const double half = std::ldexp(std::abs(torques.noc[k](i)), -24);
-           return std::abs(offAt(torques, k, i)) <= 2 * half + limitAt(torques, k, i);
-         });
-}
-
-/// Whether a format reproduces every answer, and all deviate by at most half a unit of its last digit, or by less than
-/// one towards zero.
-bool areRounded(const ExternalTorques& torques, const std::function<std::string(double)>& text,
-                const std::function<double(double)>& unitAt) {
-  return holdsForAll(torques, [&](std::size_t k, int i) {
-    const double value = torques.file.torques[k](i), unit = unitAt(value);
-    const double off = offAt(torques, k, i), limit = unit * (1 + 1e-9) + roundingAt(torques, k);
-    const bool is_near =
-        std::abs(off) <= limit - 0.5 * unit || (off * torques.noc[k](i) <= 0 && std::abs(off) <= limit);
-    return is_near && leadingNumber(text(value)).value == value;
-  });
-}
-
-/// Explains answers that a format of few digits reproduces.
-std::optional<Explanation> rounded(const MotorNames& motors, const ExternalTorques& torques) {
-  constexpr int most = 12;
-  for (int digits = 1; digits <= most; ++digits) {
-    const auto text = [digits](double value) { return fmt::format("{:.{}e}", value, digits - 1); };
-    const auto last_digit = [digits](double value) {
-      return value == 0 ? 0 : std::pow(10.0, std::floor(std::log10(std::abs(value))) - digits + 1);
-    };
-    if (areRounded(torques, text, last_digit))
-      return ofDigits(fmt::format("few digits: every answer is rounded to {} significant ones", digits));
-  }
-  for (int places = 0; places <= most; ++places) {
-    const double unit = std::pow(10.0, -places);
-    const auto text = [places](double value) { return fmt::format("{:.{}f}", value, places); };
-    if (areRounded(torques, text, [unit](double) { return unit; }))
-      return ofDigits(fmt::format("few digits: every answer is rounded to {:g} {}", unit, motors.unit(0)));
-  }
-  return std::nullopt;
+std::vector<Answer> allAnswers(const ExternalTorques& torques) {
+  std::vector<Answer> out;
+  for (std::size_t k = 0; k < torques.file.rows(); ++k)
+    for (int i = 0; i < motor_count; ++i)
+      out.push_back({torques.file.torques[k](i), torques.noc[k](i), limitAt(torques, k, i), roundingAt(torques, k)});
+  return out;
 }
 
 /// Explains deviations that are about as large as the jumps of the motor's answers to nearly the same question. The
@@ -216,10 +184,12 @@ std::optional<Explanation> sameAnswers(const MotorNames& motors, const ExternalT
 /// answers, and answers to nearly the same question that jump by about the deviation.
 std::optional<Explanation> fewDigits(const MotorNames& motors, const ExternalTorques& torques,
                                      const AskedApart& asked) {
-  if (isSinglePrecision(torques))
+  const std::vector<Answer> answers = allAnswers(torques);
+  if (torques.file.all_single && areNearSingle(answers))
     return ofDigits("single precision: every torque is a 24-bit number, off by no more than such numbers are");
   if (asked.motions.empty()) return std::nullopt;  // a file's limits include its digits
-  if (const auto found = rounded(motors, torques)) return found;
+  if (const auto rounded = roundedTo(answers, motors.unit(0)))
+    return ofDigits("few digits: every answer is rounded to " + *rounded);
   return grainy(motors, torques, asked);
 }
 

@@ -1,4 +1,5 @@
 #include "parts/causes/hypotheses.h"
+#include "model/effort_units.h"
 
 #include <fmt/format.h>
 
@@ -244,24 +245,18 @@ std::string unitOf(double factor, const MotorNames& motors) {
                                    {1e5, "dyn m for N m"},
                                    {1e7, "dyn cm for N m"},
                                    {0.017453292519943295, "degrees for radians"},
-                                   {57.29577951308232, "degrees for radians"},
-                                   {1 / 9.80665, "kgf m for N m"},
-                                   {9.80665, "N m taken for kgf m"},
-                                   {0.7375621492772653, "lbf ft for N m"},
-                                   {1.3558179483314004, "N m taken for lbf ft"},
-                                   {8.850745791327184, "lbf in for N m"}};
-  static const Known of_forces = {{1e-3, "kN for N"},
-                                  {1e3, "mN for N"},
-                                  {1e-6, "MN for N"},
-                                  {1e6, "uN for N"},
-                                  {1e5, "dyn for N"},
-                                  {1 / 9.80665, "kgf for N"},
-                                  {9.80665, "N taken for kgf"},
-                                  {0.22480894309971047, "lbf for N"},
-                                  {4.4482216152605, "N taken for lbf"}};
+                                   {57.29577951308232, "degrees for radians"}};
+  static const Known of_forces = {
+      {1e-3, "kN for N"}, {1e3, "mN for N"}, {1e-6, "MN for N"}, {1e6, "uN for N"}, {1e5, "dyn for N"}};
   for (const Known* known : {motors.allSlide() ? &of_forces : &of_moments, &tens})
     for (const auto& [value, text] : *known)
       if (std::abs(factor / value - 1) < 1e-4) return text;
+  const std::string right = motors.allSlide() ? "N" : "N m";
+  for (const EffortUnit& unit : effortUnits()) {
+    if (unit.multiplier == 1 || (unit.kind == EffortKind::force) != motors.allSlide()) continue;
+    if (std::abs(factor * unit.inSI() - 1) < 1e-4) return unit.name + (" for " + right);
+    if (std::abs(factor / unit.inSI() - 1) < 1e-4) return right + " taken for " + unit.name;
+  }
   return factor < 0 && !unitOf(-factor, motors).empty() ? unitOf(-factor, motors) + ", with the wrong sign" : "";
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "parts/causes/explanation.h"
+#include "parts/causes/few_digits.h"
 #include "parts/causes/mechanism_tried.h"
 #include "validation/mechanism/validate_mechanism.h"
 
@@ -23,7 +24,7 @@ EffortResidual residualOf(const MechanismEvidence& evidence) {
   out.motors = evidence.efforts_in.size();
   const std::size_t rows = evidence.samples.size(), count = std::min(rows, most_instants);
   const auto size = static_cast<Eigen::Index>(count) * out.motors;
-  out.noc.resize(size), out.found.resize(size), out.limit.resize(size);
+  for (VectorXd* each : {&out.noc, &out.found, &out.limit, &out.rounds}) each->resize(size);
   MotorEfforts most = MotorEfforts::Zero(out.motors), right = most;
   for (const MechanismSample& sample : evidence.samples) {
     most = most.cwiseMax(sample.subject.cwiseAbs());
@@ -38,8 +39,8 @@ EffortResidual residualOf(const MechanismEvidence& evidence) {
     out.found.segment(at, out.motors) = sample.subject;
     for (Eigen::Index k = 0; k < out.motors; ++k) {
       const double growth = right(k) > 0 ? std::max(1.0, most(k) / right(k)) : 1;
-      const double rounds = growth * evidence.limit(sample, k) / evidence.efforts_in(k) + sample.given(k);
-      out.limit(at + k) = std::max(rounds, 1e-300);
+      out.rounds(at + k) = growth * evidence.limit(sample, k) / evidence.efforts_in(k);
+      out.limit(at + k) = std::max(out.rounds(at + k) + sample.given(k), 1e-300);
     }
   }
   return out;
@@ -53,27 +54,21 @@ bool isAtRest(const EffortResidual& data) {
   });
 }
 
-/// Whether every value is one of few digits, and the right efforts are near enough to it.
+/// Whether every effort has few digits, and the right one is as near as these allow.
 bool nameDigits(const EffortResidual& data, ValidationResult& result) {
-  constexpr double single = 1.2e-7;
-  const VectorXd left = data.residual();
-  const auto all = [&](const auto& holds) {
-    for (Eigen::Index i = 0; i < left.size(); ++i)
-      if (!holds(data.found(i), std::abs(left(i)), data.limit(i))) return false;
-    return true;
-  };
-  std::string words;
-  if (all([&](double found, double off, double limit) {
-        return found == static_cast<double>(static_cast<float>(found)) && off <= single * std::abs(found) + limit;
-      }))
-    words = "the efforts have single precision";
-  for (int digits = 1; digits <= 12 && words.empty(); ++digits) {
-    const double unit = std::pow(10.0, -digits);
-    if (all([&](double found, double off, double limit) {
-          return std::abs(found / unit - std::round(found / unit)) <= 1e-6 && off <= 1.01 * unit + limit;
-        }))
-      words = fmt::format("the efforts have {} decimals", digits);
+  std::vector<Answer> answers;
+  bool is_single = true, slides = true;
+  for (Eigen::Index i = 0; i < data.found.size(); ++i) {
+    const double found = data.found(i);
+    is_single = is_single && found == static_cast<double>(static_cast<float>(found));
+    answers.push_back({found, data.noc(i), data.limit(i), data.limit(i)});
   }
+  for (std::size_t k = 0; k < data.mechanism->motorCount(); ++k) slides = slides && data.mechanism->motor(k).slides();
+  std::string words;
+  if (is_single && areNearSingle(answers))
+    words = "the efforts have single precision";
+  else if (const auto rounded = roundedTo(answers, slides ? "N" : "N m"))
+    words = "few digits: every effort is rounded to " + *rounded;
   if (words.empty()) return false;
   result.cause = NamedCause{CauseKind::digits};
   result.cause->body = "all";
@@ -105,8 +100,10 @@ bool nameWindow(const EffortResidual& data, ValidationResult& result) {
   named.from_s = data.t[off.front()];
   named.to_s = data.t[off.back()];
   named.explained = 1;
-  if (motors.size() == 1) named.motor = motors.front() + 1;
-  if (static_cast<Eigen::Index>(motors.size()) == data.motors) named.body = "all";
+  if (static_cast<Eigen::Index>(motors.size()) == data.motors)
+    named.body = "all";
+  else if (motors.size() == 1)
+    named.motor = motors.front() + 1;
   result.cause = named;
   result.cause_words.cause = fmt::format("right but from t = {:.6g} to {:.6g} s", *named.from_s, *named.to_s);
   result.cause_words.claim = CauseClaim::interval;
@@ -117,8 +114,9 @@ bool nameWindow(const EffortResidual& data, ValidationResult& result) {
 void listParts(std::vector<Fitted> fitted, const EffortResidual& data, ValidationResult& result) {
   fitted.erase(std::remove_if(fitted.begin(), fitted.end(),
                               [&](const Fitted& one) {
-                                return one.unexplained > worth_listing || one.of_found > worth_listing ||
-                                       one.numbers > 1 || 10 * one.numbers > data.noc.size();
+                                return one.is_smooth || one.unexplained > worth_listing ||
+                                       one.of_found > worth_listing || one.numbers > 1 ||
+                                       10 * one.numbers > data.noc.size();
                               }),
                fitted.end());
   std::stable_sort(fitted.begin(), fitted.end(),

@@ -100,12 +100,20 @@ void addEachMotor(const EffortResidual& data, const std::vector<int>& off, std::
                 VectorXd::Ones(columns.cols())};
     nameThem(data, off, tried.named);
     const double expected = is_offset ? 0 : 1;
-    if (is_offset && off.size() == 1) tried.named.unit = data.mechanism->motor(off[0]).slides() ? "N" : "N m";
-    tried.finish = [expected](const VectorXd& x, const VectorXd& uncertainty, NamedCause& named) {
-      if (x.size() > 1) return true;
+    const bool slides = data.mechanism->motor(off.front()).slides();
+    const bool is_one_unit = std::all_of(off.begin(), off.end(), [&](int k) {
+      return data.mechanism->motor(static_cast<std::size_t>(k)).slides() == slides;
+    });
+    const std::string unit = !is_offset ? "" : slides ? "N" : "N m";
+    tried.finish = [&data, expected, unit, is_offset, is_one_unit](const VectorXd& x, const VectorXd& uncertainty,
+                                                                   NamedCause& named) {
+      const double spread = std::max(uncertainty.maxCoeff(), 1e-12 * x.cwiseAbs().maxCoeff());
+      if (!is_one_unit || x.maxCoeff() - x.minCoeff() > spread) return true;  // they have no one value
       named.expected = expected;
-      named.found = expected + x(0);
-      named.uncertainty = uncertainty(0);
+      named.found = expected + x.mean();
+      named.uncertainty = uncertainty.maxCoeff();
+      named.unit = unit;
+      if (!is_offset && x.size() > 1) static_cast<void>(nameUnits(data, *named.found, named));
       return true;
     };
     out.push_back(tried);
@@ -207,6 +215,7 @@ void addDelay(const EffortResidual& data, std::vector<Fitted>& out) {
   fitted.numbers = 1;
   fitted.unexplained = shifted.unexplained;
   fitted.of_found = shifted.left.norm() / std::max(data.found.norm(), 1e-300);
+  fitted.is_smooth = data.isSmooth(shifted.left);
   fitted.beyond = (shifted.left.cwiseAbs().array() / shifted.limit.array()).maxCoeff();
   out.push_back(fitted);
 }

@@ -10,11 +10,14 @@ namespace ursula::mechanisms {
 namespace {
 
 /// Another explanation that leaves little more is as good.
-constexpr double as_good = 6;
+constexpr double as_good = 6, may_be_digits = 0.01;
 constexpr std::size_t most_listed = 4;
 
 bool explainsAll(const Fitted& one, double beyond = may_be_beyond) {
-  return one.beyond <= beyond && one.unexplained <= may_be_chance && (one.of_found <= may_be_chance || one.beyond <= 1);
+  if (one.is_smooth || one.beyond > beyond || one.unexplained > may_be_chance) return false;
+  if (one.of_found <= may_be_chance) return true;
+  // The digits are nearly all that was answered: a fitted number must explain much more than they leave open.
+  return one.beyond <= 1 && (one.numbers == 0 || one.unexplained <= may_be_digits);
 }
 
 /// "body.crank.inertia" of "body.crank.inertia.xx" and of itself; empty for numbers that are no entries.
@@ -111,6 +114,7 @@ std::optional<Explained> explained(const std::vector<Fitted>& fitted) {
     if (one.named.body != first.named.body) first.named.body.clear();
     if (one.named.joint != first.named.joint && one.named.body != "all") first.named.joint.clear();
     if (one.detail != first.detail) first.detail.clear();
+    if (one.named.parameter != first.named.parameter) first.named.parameter.clear();
   }
   return out;
 }

@@ -100,6 +100,13 @@ double EffortResidual::beyond(const VectorXd& left) const {
   return out;
 }
 
+bool EffortResidual::isSmooth(const VectorXd& left) const {
+  constexpr double may_be_rounding = 2, alike = 0.8;
+  const Eigen::Index count = left.size() - motors;
+  if (count <= 0 || left.norm() <= may_be_rounding * rounds.norm()) return false;
+  return left.head(count).dot(left.tail(count)) > alike * left.head(count).norm() * left.tail(count).norm();
+}
+
 void addFixed(std::vector<Tried>& out, const NamedCause& named, const ChangeOf& change, const std::string& detail) {
   Tried tried{named, [change](const EffortResidual& of, const VectorXd&) { return change(of); }};
   tried.detail = detail;
@@ -123,6 +130,7 @@ std::vector<Fitted> fitAll(const std::vector<Tried>& tried, const EffortResidual
     fitted.unexplained = left.norm() / residual.norm();
     fitted.of_found = left.norm() / std::max(data.found.norm(), 1e-300);
     fitted.beyond = data.beyond(left);
+    fitted.is_smooth = data.isSmooth(left);
     fitted.predicted = fit.predicted();
     if (!std::isfinite(fitted.unexplained)) continue;
     if (each.finish && !each.finish(fit.x(), fit.uncertainty(), fitted.named)) continue;

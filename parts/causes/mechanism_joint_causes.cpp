@@ -12,6 +12,7 @@ namespace {
 struct JointTerm {
   const char* term;
   const char* detail;
+  const char* number;  ///< the joint's, to which the term is proportional; empty for several
   double (*of)(const MechanismJoint&, const Coordinate&);
 };
 
@@ -25,13 +26,14 @@ double springOf(const MechanismJoint& j, const Coordinate& c) {
 }
 
 const JointTerm joint_terms[] = {
-    {"friction", "", [](const MechanismJoint& j, const Coordinate& c) { return dampingOf(j, c) + coulombOf(j, c); }},
-    {"friction", "the viscous part", dampingOf},
-    {"friction", "the Coulomb part", coulombOf},
-    {"rotor_inertia", "",
+    {"friction", "", "",
+     [](const MechanismJoint& j, const Coordinate& c) { return dampingOf(j, c) + coulombOf(j, c); }},
+    {"friction", "the viscous part", "damping", dampingOf},
+    {"friction", "the Coulomb part", "friction", coulombOf},
+    {"rotor_inertia", "", "armature",
      [](const MechanismJoint& j, const Coordinate& c) { return j.rotor_inertia * c.acceleration; }},
-    {"springs", "", springOf},
-    {"springs", "their rest positions",
+    {"springs", "", "stiffness", springOf},
+    {"springs", "their rest positions", "spring_reference",
      [](const MechanismJoint& j, const Coordinate&) { return hasSpring(j) ? -j.stiffness * j.spring_reference : 0; }},
 };
 
@@ -62,6 +64,11 @@ ChangeOf termOf(const Joints& joints, const JointTerm& term, double times) {
   };
 }
 
+/// "joint.elbow.damping"; empty if the term has several numbers.
+std::string numberOf(const std::string& joint, const JointTerm& term) {
+  return *term.number == 0 ? "" : "joint." + joint + term.number;
+}
+
 void addTerm(const EffortResidual& data, const JointTerm& term, std::vector<Tried>& out) {
   const Mechanism& mechanism = *data.mechanism;
   Joints all, motors, passive;
@@ -71,13 +78,14 @@ void addTerm(const EffortResidual& data, const JointTerm& term, std::vector<Trie
     if (jointEfforts(data, j, term.of).isZero(0)) continue;
     NamedCause named{CauseKind::missing_term, term.term};
     named.joint = joint.name;
+    named.parameter = numberOf(joint.name + ".", term);
     addFixed(out, named, termOf({j}, term, -1), term.detail);
     named.kind = CauseKind::sign;
     addFixed(out, named, termOf({j}, term, -2), term.detail);
     all.push_back(j);
     (isMotor(mechanism, j) ? motors : passive).push_back(j);
   }
-  NamedCause named{CauseKind::missing_term, term.term, "all"};
+  NamedCause named{CauseKind::missing_term, term.term, "all", numberOf("", term)};
   if (all.size() > 1) addScaledTerm(named, termOf(all, term, 1), term.detail, out);
   if (passive.size() > 1 && !motors.empty())
     named.body = "passive", addFixed(out, named, termOf(passive, term, -1), term.detail);
@@ -187,6 +195,7 @@ const JointNumber joint_numbers[] = {
 
 void addNumber(const EffortResidual& data, std::size_t j, const JointNumber& number, std::vector<Tried>& out) {
   const MechanismJoint& joint = data.mechanism->joints()[j];
+  if (joint.closure && !hasSpring(joint) && !joint.isLoaded()) return;  // a tie between points, which has none
   const VectorXd column = jointEfforts(data, j, number.per_unit);
   if (column.isZero(0)) return;
   const double expected = joint.*(number.member);

@@ -18,7 +18,7 @@ EffortResidual picked(const EffortResidual& data, const std::vector<std::size_t>
   EffortResidual out = data;
   out.t.clear(), out.instants.clear();
   const auto size = static_cast<Eigen::Index>(rows.size()) * data.motors;
-  for (VectorXd* each : {&out.noc, &out.found, &out.limit}) each->resize(size);
+  for (VectorXd* each : {&out.noc, &out.found, &out.limit, &out.rounds}) each->resize(size);
   LoopWork work;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto to = static_cast<Eigen::Index>(i) * data.motors;
@@ -27,6 +27,7 @@ EffortResidual picked(const EffortResidual& data, const std::vector<std::size_t>
     out.instants.push_back(shift == 0 ? data.instants[rows[i]] : instantAt(*data.motion, out.t.back()));
     out.found.segment(to, data.motors) = data.found.segment(from, data.motors);
     out.limit.segment(to, data.motors) = data.limit.segment(from, data.motors);
+    out.rounds.segment(to, data.motors) = data.rounds.segment(from, data.motors);
     if (shift == 0)
       out.noc.segment(to, data.motors) = data.noc.segment(from, data.motors);
     else
@@ -125,8 +126,9 @@ NameAlone nameAlone(const EffortResidual& data) {
   return [&data](const VectorXd& effect) -> std::optional<NamedAlone> {
     EffortResidual alone = data;
     alone.found = data.noc + effect;
-    alone.limit *=
+    const double growth =
         std::max(1.0, data.found.cwiseAbs().maxCoeff() / std::max(alone.found.cwiseAbs().maxCoeff(), 1e-300));
+    alone.limit *= growth, alone.rounds *= growth;
     const std::optional<Explained> all = explained(fittedCauses(alone));
     if (!all) return std::nullopt;
     const auto words = [first = all->first](double wider) {

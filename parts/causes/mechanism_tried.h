@@ -19,6 +19,7 @@ struct EffortResidual {
   std::vector<Instant> instants;  ///< of the motion; those of `noc`
   VectorXd noc, found;            ///< N·m or N
   VectorXd limit;                 ///< possible difference of right efforts: rounding and the file's digits
+  VectorXd rounds;                ///< the part of it that is rounding
   Eigen::Index motors = 1;
   double growth = 1;  ///< how many times larger the found efforts are than what rounds in the right ones
 
@@ -33,6 +34,9 @@ struct EffortResidual {
   }
   /// The largest ratio of an entry to its limit.
   double beyond(const VectorXd& left) const;
+  /// Whether a remainder that only the file's digits allow is alike from one instant to the next, as rounding to digits
+  /// is not. Digits that hardly change tell nothing.
+  bool isSmooth(const VectorXd& left) const;
 };
 
 /// One mistake with numbers x that are fitted, zero if there is none.
@@ -56,6 +60,7 @@ struct Fitted {
   double unexplained = 1;   ///< ‖left‖ / ‖residual‖
   double of_found = 1;      ///< ‖left‖ / ‖found‖
   double beyond = 1e300;    ///< the largest remainder, in multiples of its limit
+  bool is_smooth = false;   ///< the remainder is another error: EffortResidual::isSmooth
   VectorXd predicted = {};  ///< the change of the efforts
 };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "model/effort_units.h"
 #include "parts/causes/pursuit.h"
 
 namespace ursula {
@@ -47,8 +48,10 @@ std::vector<OutputMistake> outputMistakes(Index n, std::size_t& discrete) {
       if ((which >> k & 1U) != 0) signs(k) = -1;
     outputs.push_back({{}, signs});
   }
-  constexpr double g = 9.80665, degrees = 57.29577951308232, pound_foot = 1.3558179483314004;
-  for (const double unit : {1e3, 1e6, 1e2, 1e1, g, degrees, pound_foot, 4.4482216152605, 8.850745791327184})
+  std::vector<double> units = {1e3, 1e6, 1e2, 1e1, 57.29577951308232};  // the last are degrees
+  for (const EffortUnit& unit : effortUnits())
+    if (unit.multiplier != 1) units.push_back(unit.inSI());
+  for (const double unit : units)
     for (const double factor : {unit, 1 / unit}) outputs.push_back({{}, factor * ones});
   std::vector<Index> own(static_cast<std::size_t>(n));
   std::iota(own.begin(), own.end(), Index{0});

@@ -34,6 +34,7 @@ std::string withDoubt(double inflation, double shift, NamedAlone& named) {
 struct Member {
   NamedAlone named;
   std::string words;
+  double along = 0;  ///< the deviation, for the order of those that explain nothing alone
 };
 
 /// The words do not say how many they are.
@@ -51,13 +52,15 @@ std::optional<SeveralNamed> nameSet(const Pursuit& pursuit, const Mistakes& mist
     const auto at = static_cast<Index>(i);
     const double shift = mistakes.x(at) == 0 ? 0 : doubt.shift(at) / std::abs(mistakes.x(at));
     const std::string words = withDoubt(doubt.inflation(at), shift, *named) + named->others;
-    named->cause.explained = std::clamp(residual.dot(effect) / residual.squaredNorm(), 0.0, 1.0);
+    named->cause.explained = std::max(0.0, 1 - (residual - effect).squaredNorm() / residual.squaredNorm());
     const auto& any = mistakes.any_body;
     if (std::find(any.begin(), any.end(), mistakes.which[i]) != any.end()) named->cause.body.clear();
-    members.push_back({std::move(*named), words});
+    members.push_back({std::move(*named), words, residual.dot(effect)});
   }
-  std::stable_sort(members.begin(), members.end(),
-                   [](const auto& a, const auto& b) { return a.named.cause.explained > b.named.cause.explained; });
+  std::stable_sort(members.begin(), members.end(), [](const Member& a, const Member& b) {
+    const double of_a = a.named.cause.explained, of_b = b.named.cause.explained;
+    return of_a > of_b || (of_a == of_b && a.along > b.along);
+  });
   SeveralNamed out;
   for (const Member& one : members) {
     const double percents = 100 * one.named.cause.explained;
@@ -65,7 +68,10 @@ std::optional<SeveralNamed> nameSet(const Pursuit& pursuit, const Mistakes& mist
     out.ties.insert(out.ties.end(), ties.begin(), ties.end());
     out.is_sure = out.is_sure && ties.empty();
     out.words += (out.together.empty() ? "" : out.together.size() + 1 == members.size() ? ", and " : ", ") + one.words;
-    out.words += percents < 0.1 ? " (less than 0.1 %)" : fmt::format(" ({:.3g} %)", percents);
+    out.words += percents < 0.1       ? " (less than 0.1 %)"
+                 : percents > 99.9999 ? " (more than 99.9999 %)"
+                 : percents > 99      ? fmt::format(" ({:.4f} %)", percents)
+                                      : fmt::format(" ({:.3g} %)", percents);
     out.together.push_back(one.named.cause);
   }
   const auto order = std::find_if(out.together.begin(), out.together.end(),

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <boost/numeric/odeint.hpp>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -191,69 +190,6 @@ TEST(MechanismMotion, ofAFileIsJudgedByItsEfforts) {
   });
   const GivenEfforts of_lighter = effortsOf(scenario);
   EXPECT_EQ(validateMotion(heavier, file, &of_lighter).verdict, Verdict::fail);
-}
-
-/// What a machine does under efforts, with a spline between their rows: rows of t, q, rates and accelerations. Rates
-/// are multiplied by `factor`; without `derivatives` there are coordinates alone.
-std::string simulatedFile(const MechanismScenario& scenario, const GivenEfforts& efforts, bool derivatives,
-                          double factor = 1) {
-  namespace odeint = boost::numeric::odeint;
-  using State = std::vector<double>;
-  const MechanismAlong along(scenario);
-  const auto n = efforts.efforts.front().size();
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(efforts.t.size()), n);
-  for (std::size_t k = 0; k < efforts.t.size(); ++k) rows.row(static_cast<Eigen::Index>(k)) = efforts.efforts[k];
-  const auto between = makeMotorSamples(efforts.t, rows);
-  LoopWork work;
-  const auto motionOf = [&](const State& x, double t) {
-    MotorMotion out{t, Eigen::Map<const Eigen::VectorXd>(x.data(), n), Eigen::Map<const Eigen::VectorXd>(&x[n], n),
-                    Eigen::VectorXd::Zero(n)};
-    out.qddot = along.solver().directDynamics(out, between->at(t).q, along.motion().near(t), work);
-    return out;
-  };
-  const auto rate = [&](const State& x, State& out, double t) {
-    const MotorMotion at = motionOf(x, t);
-    out.assign(at.qdot.begin(), at.qdot.end());
-    out.insert(out.end(), at.qddot.begin(), at.qddot.end());
-  };
-  std::string text = "t_s";
-  for (const char* of : {"q", "qdot", "qddot"})
-    for (std::size_t k = 0; k < scenario.mechanism->motorCount() && (derivatives || of == std::string("q")); ++k)
-      text += "," + motorColumn(*scenario.mechanism, k, of);
-  const MotorMotion start = scenario.trajectory->at(0);
-  State x(start.q.begin(), start.q.end());
-  x.insert(x.end(), start.qdot.begin(), start.qdot.end());
-  odeint::integrate_times(odeint::make_controlled(1e-11, 1e-11, odeint::runge_kutta_dopri5<State>()), rate, x,
-                          efforts.t.begin(), efforts.t.end(), 1e-4, [&](const State& now, double t) {
-                            const MotorMotion at = motionOf(now, t);
-                            text += fmt::format("\n{:.17g}", t);
-                            for (const double q : at.q) text += fmt::format(",{:.17g}", q);
-                            if (!derivatives) return;
-                            for (const double v : at.qdot) text += fmt::format(",{:.17g}", factor * v);
-                            for (const double a : at.qddot) text += fmt::format(",{:.17g}", a);
-                          });
-  return text + "\n";
-}
-
-/// Where Coulomb friction turns round between two rows, these tell little of it: a right motion is not refused and does
-/// not fail, and one under other efforts does.
-TEST(MechanismMotion, ofFrictionBetweenItsRowsDoesNotFail) {
-  const TemporaryFolder folder;
-  for (const char* machine : {"fourbar_rub", "boom_rub"}) {
-    const MechanismScenario scenario = loopScenario(machine);
-    const GivenEfforts right = effortsOf(scenario);
-    GivenEfforts other = right;
-    for (MotorEfforts& each : other.efforts) each *= 1.01;
-    for (const bool derivatives : {false, true})
-      for (const bool is_right : {true, false}) {
-        const GivenEfforts &under = is_right ? right : other, &against = is_right ? other : right;
-        const auto file = folder.write("motion.csv", simulatedFile(scenario, under, derivatives));
-        EXPECT_NE(validateMotion(scenario, file, &under).verdict, Verdict::fail) << machine << derivatives;
-        EXPECT_EQ(validateMotion(scenario, file, &against).verdict, Verdict::fail) << machine << derivatives;
-      }
-    const auto file = folder.write("motion.csv", simulatedFile(scenario, right, true, 1.1));
-    EXPECT_THROW(validateMotion(scenario, file, &right), CsvError) << machine;
-  }
 }
 
 TEST(MechanismTolerance, ofTheUserDecides) {

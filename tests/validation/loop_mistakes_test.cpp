@@ -1,4 +1,11 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/validation/loop_machine.h"
 
@@ -138,6 +145,146 @@ TEST(LoopMistake, coriolisOfSlidesIsNamed) {
   EXPECT_EQ(result.cause->kind, CauseKind::missing_term);
   EXPECT_EQ(result.cause->term, "coriolis");
   EXPECT_NE(result.cause_words.cause.find("what slides"), std::string::npos) << result.cause_words.cause;
+}
+
+/// Efforts that are printed as multiples of `unit`.
+ValidationResult judgePrinted(const Machine& machine, const std::vector<MotorEfforts>& efforts, double unit) {
+  auto given = std::make_shared<GivenEfforts>();
+  given->name = "efforts";
+  given->t = machine.instants();
+  given->efforts = efforts;
+  for (MotorEfforts& each : given->efforts)
+    for (double& one : each) one = unit * std::round(one / unit);
+  given->precision.assign(efforts.size(), MotorEfforts::Constant(efforts.front().size(), unit / 2));
+  MechanismSubject subject;
+  subject.about = {"efforts", Formulation::external};
+  subject.given = given;
+  return validateMechanism(machine.scenario(), subject);
+}
+
+/// Digits as coarse as the efforts leave much open; a remainder that is smooth in spite of them is another error.
+TEST(LoopMistake, constantEffortsOfFewDigitsHaveNoCause) {
+  const Machine machine("ankle");
+  std::vector<MotorEfforts> efforts = machine.efforts();
+  for (MotorEfforts& each : efforts) each << 1, -1;
+  const ValidationResult constant = judgePrinted(machine, efforts, 1);
+  EXPECT_EQ(constant.verdict, Verdict::fail);
+  EXPECT_FALSE(constant.cause) << constant.cause_words.cause;
+  EXPECT_TRUE(constant.causes.empty()) << constant.cause_words.cause;
+  MechanismParameters tilted = machine.parameters();
+  tilted.gravity.y() -= 5;
+  const ValidationResult known = judgePrinted(machine, machine.efforts(tilted), 0.001);
+  ASSERT_TRUE(known.cause) << known.cause_words.cause;
+  EXPECT_EQ(known.cause->parameter, "mechanism.gravity.1");
+  EXPECT_NEAR(known.cause->found.value_or(0), -5, 0.01);
+}
+
+/// A cause of several alone explains less than all, and what it explains is what the deviation lacks without the rest.
+TEST(LoopMistake, sharesOfSeveralAreTheirOwn) {
+  const Machine machine("fourbar");
+  const std::size_t motor = machine.mechanism().motors().front();
+  MechanismParameters damped = machine.parameters();
+  damped.joints[motor].damping += 0.05;
+  const std::vector<MotorEfforts> right = machine.efforts(), alone = machine.efforts(damped);
+  std::vector<MotorEfforts> both = alone;
+  for (MotorEfforts& each : both) each(0) += 1e-3;
+  double left = 0, all = 0;
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    left += (both[i] - alone[i]).squaredNorm();
+    all += (both[i] - right[i]).squaredNorm();
+  }
+  const ValidationResult result = machine.judge(both);
+  ASSERT_EQ(result.causes_together.size(), 2U) << result.cause_words.cause;
+  EXPECT_EQ(result.causes_together[0].parameter, "joint." + machine.mechanism().joints()[motor].name + ".damping");
+  EXPECT_NEAR(result.causes_together[0].explained, 1 - left / all, 1e-3 * left / all);
+  EXPECT_LT(result.causes_together[0].explained, 1);
+  EXPECT_EQ(result.cause_words.cause.find("(100 %)"), std::string::npos) << result.cause_words.cause;
+}
+
+TEST(LoopMistake, everyUnitOfColumnsIsNamed) {
+  const Machine machine("fourbar");
+  for (const double unit : {9.80665, 0.0980665, 1.3558179483314004, 0.1129848290276167, 0.00706155181422604})
+    for (const double factor : {unit, 1 / unit}) {
+      const ValidationResult result = judgeEfforts(machine, [&](std::size_t, auto& tau) { tau *= factor; });
+      ASSERT_TRUE(result.cause) << factor << result.cause_words.cause;
+      EXPECT_EQ(result.cause->kind, CauseKind::units) << factor;
+    }
+  const ValidationResult other = judgeEfforts(machine, [](std::size_t, auto& tau) { tau *= 10.21; });
+  ASSERT_TRUE(other.cause) << other.cause_words.cause;
+  EXPECT_EQ(other.cause->kind, CauseKind::scale);
+}
+
+TEST(LoopMistake, significantDigitsOfASolverAreNamed) {
+  const Machine machine("planar3rrr");
+  const auto printed = [](double value) { return std::stod(fmt::format("{:.6g}", value)); };
+  const ValidationResult result = judgeEfforts(machine, [&](std::size_t, auto& tau) { tau = tau.unaryExpr(printed); });
+  ASSERT_TRUE(result.cause) << result.cause_words.cause;
+  EXPECT_EQ(result.cause->kind, CauseKind::digits);
+  EXPECT_NE(result.cause_words.cause.find("6 significant digits"), std::string::npos) << result.cause_words.cause;
+  const ValidationResult wrong =
+      judgeEfforts(machine, [&](std::size_t, auto& tau) { tau = (1.01 * tau).unaryExpr(printed).eval(); });
+  EXPECT_TRUE(!wrong.cause || wrong.cause->kind != CauseKind::digits) << wrong.cause_words.cause;
+}
+
+TEST(LoopMistake, oneOffsetOfSeveralMotorsHasItsValue) {
+  const Machine machine("ankle");
+  const ValidationResult equal = judgeEfforts(machine, [](std::size_t, auto& tau) { tau.array() += 0.2; });
+  ASSERT_TRUE(equal.cause) << equal.cause_words.cause;
+  EXPECT_EQ(equal.cause->kind, CauseKind::offset);
+  EXPECT_NEAR(equal.cause->found.value_or(0), 0.2, 1e-9);
+  EXPECT_EQ(equal.cause->expected.value_or(1), 0);
+  EXPECT_EQ(equal.cause->unit, "N m");
+  const ValidationResult apart = judgeEfforts(machine, [](std::size_t, auto& tau) { tau(0) += 0.2, tau(1) += 0.3; });
+  ASSERT_TRUE(apart.cause) << apart.cause_words.cause;
+  EXPECT_EQ(apart.cause->kind, CauseKind::offset);
+  EXPECT_FALSE(apart.cause->found);
+}
+
+/// What is left out of one joint is told by the number that it has.
+TEST(LoopMistake, termsOfJointsTellTheirNumbers) {
+  const Machine machine("fourbar");
+  const std::size_t motor = machine.mechanism().motors().front();
+  const std::string joint = "joint." + machine.mechanism().joints()[motor].name;
+  Machine loaded("fourbar", [&](MechanismParameters& p) {
+    MechanismJoint& its = p.joints[motor];
+    its.damping = 0.2, its.friction = 0.3, its.stiffness = 2, its.spring_reference = 0.4;
+  });
+  const std::pair<const char*, double MechanismJoint::*> numbers[] = {
+      {"damping", &MechanismJoint::damping},
+      {"friction", &MechanismJoint::friction},
+      {"stiffness", &MechanismJoint::stiffness},
+      {"spring_reference", &MechanismJoint::spring_reference}};
+  for (const auto& each : numbers) {
+    const char* name = each.first;
+    const auto member = each.second;
+    const ValidationResult result = judgeChanged(loaded, [&](auto& p) { p.joints[motor].*member = 0; });
+    const std::vector<NamedCause> found = result.cause ? std::vector<NamedCause>{*result.cause} : result.causes;
+    ASSERT_FALSE(found.empty()) << name << ": " << result.cause_words.cause;
+    EXPECT_EQ(found.front().kind, CauseKind::missing_term);
+    EXPECT_EQ(found.front().parameter, joint + "." + name) << result.cause_words.cause;
+  }
+}
+
+/// A tie between two points has no armature; one motor is all motors.
+TEST(LoopMistake, closuresHaveNoNumbersAndOneMotorIsAll) {
+  const Machine machine("fourbar");
+  const auto& joints = machine.mechanism().joints();
+  const ValidationResult turned = judgeChanged(machine, [&](auto& p) {
+    for (MechanismBody& body : p.bodies)
+      if (!body.fixed) body.inertia *= 1.1;
+  });
+  std::vector<NamedCause> all = turned.causes;
+  if (turned.cause) all.push_back(*turned.cause);
+  for (const NamedCause& each : all)
+    for (const MechanismJoint& joint : joints)
+      EXPECT_FALSE(joint.closure && each.joint == joint.name) << each.parameter;
+  const ValidationResult window = judgeEfforts(machine, [](std::size_t i, auto& tau) {
+    if (i > 20 && i < 30) tau(0) += 0.1 * static_cast<double>(i % 4 + 1);
+  });
+  ASSERT_TRUE(window.cause) << window.cause_words.cause;
+  EXPECT_EQ(window.cause->kind, CauseKind::window);
+  EXPECT_EQ(window.cause->body, "all");
+  EXPECT_EQ(window.cause->motor, 0);
 }
 
 }  // namespace
