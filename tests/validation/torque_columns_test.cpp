@@ -243,7 +243,7 @@ TEST(TorqueColumns, takesUnitsOfServosAndPounds) {
   EXPECT_NEAR(pounds.torques[0](2) / pounds.torques[0](3) * 9.80665 / 4.448222, 3.25 / 4.25, 1e-6);
   EXPECT_THAT(
       refusal<CsvError>([] { parseTorqueFile("t_s,tau_1_lbf,tau2,tau3,tau4,tau5,tau6\n" + plain_rows, "a.csv"); }),
-      HasSubstr("motor 1 turns and has a torque, expected 'tau_1_Nm' in N m"));
+      HasSubstr("motor 1 turns and has a torque, expected 'tau_1_Nm' in N·m"));
 }
 
 }  // namespace
