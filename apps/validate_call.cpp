@@ -215,26 +215,8 @@ std::shared_ptr<const MechanismScenario> withTolerance(const EffortTolerance& us
   return std::make_shared<const MechanismScenario>(std::move(scenario));
 }
 
-/// Does what validateAll() does; `refused` gets the scenarios for whose errors it throws.
-int validateAll(const ValidateOptions& options, std::vector<JudgedFile>& refused);
-
-}  // namespace
-
-int validateAll(const ValidateOptions& options) {
-  std::vector<JudgedFile> refused;
-  try {
-    return validateAll(options, refused);
-  } catch (const std::exception& error) {
-    const std::string& first = options.scenarios.front();
-    if (refused.empty()) refused.push_back({first, report::errorJson(first, error.what())});
-    if (!options.format.empty()) printFindings(options.format, refused);
-    throw;
-  }
-}
-
-namespace {
-
-int validateAll(const ValidateOptions& options, std::vector<JudgedFile>& refused) {
+/// Judges all; `refused` gets the scenarios for whose errors it throws.
+int judgeAll(const ValidateOptions& options, std::vector<JudgedFile>& refused) {
   if (std::count(options.scenarios.begin(), options.scenarios.end(), "-") > 1)
     throw UsageError("standard input can be read once, expected one -");
   std::error_code ignored;
@@ -266,4 +248,17 @@ int validateAll(const ValidateOptions& options, std::vector<JudgedFile>& refused
 }
 
 }  // namespace
+
+int validateAll(const ValidateOptions& options) {
+  std::vector<JudgedFile> refused;
+  try {
+    return judgeAll(options, refused);
+  } catch (const std::exception& error) {
+    const std::string& first = options.scenarios.front();
+    if (refused.empty()) refused.push_back({first, report::errorJson(first, error.what())});
+    if (!options.format.empty()) printFindings(options.format, refused);
+    throw;
+  }
+}
+
 }  // namespace ursula

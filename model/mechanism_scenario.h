@@ -71,8 +71,9 @@ MechanismScenario readMechanism(const std::filesystem::path& file, ModelReader r
 struct MotorSamples {
   std::vector<double> t;
   std::shared_ptr<const MotorTrajectory> trajectory;
-  double quantum = 0;        ///< half a unit of the last digit of the coarsest coordinate, rad or m; 0 if unknown
-  std::string read_as = {};  ///< "FILE: read as: …"; empty for a file by the contract
+  bool has_derivatives = false;  ///< whether the file gives rates and accelerations
+  double quantum = 0;            ///< half a unit of the last digit of the coarsest coordinate, rad or m; 0 if unknown
+  std::string read_as = {};      ///< "FILE: read as: …"; empty for a file by the contract
   std::vector<std::string> mapped = {};  ///< as in MotorTable
 };
 /// `map` is as for readMotorTable(). Throws CsvError.

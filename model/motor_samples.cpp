@@ -103,6 +103,7 @@ MotorSamples readMotorSamples(const std::filesystem::path& file, const Mechanism
   MotorSamples out;
   out.t = read.at("t_s");
   out.mapped = found.mapped;
+  out.has_derivatives = rates.size() > 0 && accelerations.size() > 0;
   if (!found.read_as.empty()) out.read_as = fmt::format("{}: read as: {}", shownPath(file.string()), found.read_as);
   for (std::size_t k = 0; k < mechanism.motorCount(); ++k)
     out.quantum = std::max(out.quantum, half[&read.at(motorColumn(mechanism, k, "q")) - read.columns.data()]);

@@ -25,8 +25,8 @@ struct MotorTable {
 
 /// Reads t_s and q_k, qdot_k, qddot_k of each motor k, by number or by the joint's own name, also in ms, us, deg and
 /// mm. `map` has entries NAME=COLUMN, where NAME is such a name; an entry whose column the file lacks is passed over.
-/// Of several columns for one quantity the mapped one is taken, then that by number, then that in SI. Throws CsvError,
-/// also for a missing coordinate, and for a missing time if `has_time`.
+/// If several columns hold one quantity, a mapped column comes first, a numbered one second, one in SI third. Throws
+/// CsvError, also for a missing coordinate, and for a missing time if `has_time`.
 MotorTable readMotorTable(const std::filesystem::path& file, const Mechanism& mechanism,
                           const std::vector<std::string>& map = {}, bool has_time = true);
 

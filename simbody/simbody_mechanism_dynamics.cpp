@@ -105,7 +105,7 @@ SimTK::Vector SimbodyMechanism::Impl::byRealizing(const Eigen::VectorXd& efforts
   return state.getUDot();
 }
 
-// With the accelerations u̇₀ = M⁻¹ f of the open tree, the multipliers follow from (G M⁻¹ Gᵀ) λ = −(G u̇₀ + bias).
+// The open tree accelerates by u̇₀ = M⁻¹ f. The multipliers λ close the loops: (G M⁻¹ Gᵀ) λ = −(G u̇₀ + bias).
 SimTK::Vector SimbodyMechanism::Impl::byMultipliers(const Eigen::VectorXd& efforts) const {
   realize(SimTK::Stage::Velocity);
   const int nu = state.getNU();

@@ -258,11 +258,10 @@ ValidationResult validateMotion(const MechanismScenario& scenario, const std::fi
   const EffortsAt right = effortsAlong(scenario, scenario.trajectory);
   const GivenRows rows = rowsWithin(read.t, efforts ? &efforts->t : nullptr, efforts ? efforts->efforts : EffortList(),
                                     efforts ? efforts->name : "", right);
-  const std::string text = readCsvText(motion);
-  const bool has_derivatives = text.find("qdot_") != std::string::npos && text.find("qddot_") != std::string::npos;
   const NeededBy needed = [&](std::size_t step) {
-    return effortsAlong(
-        scenario, step == 1 ? read.trajectory : splineOf(*read.trajectory, eachOf(read.t, step), has_derivatives, 0));
+    return effortsAlong(scenario, step == 1
+                                      ? read.trajectory
+                                      : splineOf(*read.trajectory, eachOf(read.t, step), read.has_derivatives, 0));
   };
   const EffortsAt sampled = effortsAlong(scenario, splineOf(*scenario.trajectory, read.t, false, read.quantum));
   const MotionAsEfforts made = compared(rows, needed, right, sampled);
