@@ -240,6 +240,23 @@ TEST(MechanismDrawing, namesMotorsAtNearlyTheSamePlace) {
   }
 }
 
+/// A sum of one line may round to less than a line: such a name was moved down for ever.
+TEST(MechanismDrawing, movesNamesDownWhereverSumsRound) {
+  MechanismPicture machine = fourBar();
+  machine.joints.push_back(machine.joints.front());
+  machine.joints.back().name = "second";
+  machine.joints.back().motor = 1;
+  machine.motors.push_back({"second", "Nm"});
+  int rounded_down = 0;
+  for (double top = 0; top < 300; top += 0.1) {
+    const double y = top + 250;
+    rounded_down += (y + 15) - y < 15 ? 1 : 0;
+    const std::string svg = report::drawn(machine, report::viewOf(machine), {0, top, 400, 300});
+    EXPECT_TRUE(contains(svg, ">second</text>"));
+  }
+  EXPECT_GT(rounded_down, 0) << "the tops have such sums";
+}
+
 /// The points that two bodies share stay together along the motion, so the drawing's poses are the machine's.
 TEST(MechanismDrawing, keepsJointsTogether) {
   const MechanismPicture machine = fourBar();
