@@ -80,6 +80,6 @@ def test_which_motors_are_off_is_a_table(program, tmp_path):
     (tmp_path / "mine.csv").write_text("\n".join(rows) + "\n")
     assert program("validate", "my.toml", "--torques", "mine.csv", "--out", "out").returncode == 1
     page = (tmp_path / "out" / "report.html").read_text()
-    table = re.search(r'<table class="motors">.*?</table>', page, re.DOTALL)[0]
+    table = re.search(r'<table class="motors[^"]*">.*?</table>', page, re.DOTALL)[0]
     assert table.count("within its limit") == 5 and "1.01 × expected" in table
     assert "no leg is right" not in page and "beyond its limit from" not in page[:page.index("<nav")]

@@ -218,7 +218,7 @@ TEST(SlidingMotors, anotherUnitIsRefusedByTheColumnThatIsWanted) {
   EXPECT_EQ(refused(plain_header, mixedMotors()),
             "a.csv:1: error: column 'tau_3_Nm': motor 3 slides and has a force, expected 'tau_3_N' in N");
   EXPECT_EQ(refused(mixed_header, {}),
-            "a.csv:1: error: column 'tau_3_N': motor 3 turns and has a torque, expected 'tau_3_Nm' in N m");
+            "a.csv:1: error: column 'tau_3_N': motor 3 turns and has a torque, expected 'tau_3_Nm' in N·m");
   EXPECT_EQ(refusal<CsvError>([] { parseColumnMap({"tau_3_Nm=x"}, mixedMotors()); }),
             "--map tau_3_Nm=x: motor 3 slides and has a force, expected 'tau_3_N' in N");
   // The unit of an unneeded column does not matter.
