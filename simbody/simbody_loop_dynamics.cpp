@@ -200,6 +200,7 @@ SimbodyLoop::Counters SimbodyLoop::integrateRungeKuttaMerson(double accuracy, co
   loop.applied->history = noting(lack, torques);
   loop.placed_jacobian.reset();
   Counters counters;
+  bool initialized = false;  // Simbody aborts where the steps of another one are asked for
   SimTK::RungeKuttaMersonIntegrator integrator(loop.system);
   integrator.setAccuracy(accuracy);
   integrator.setConstraintTolerance(accuracy);
@@ -210,6 +211,7 @@ SimbodyLoop::Counters SimbodyLoop::integrateRungeKuttaMerson(double accuracy, co
   const int before = loop.system.getNumRealizationsOfThisStage(SimTK::Stage::Acceleration);
   try {
     integrator.initialize(loop.state);
+    initialized = true;
     const auto show = [&] {
       loop.state = integrator.getState();
       loop.realize(SimTK::Stage::Velocity);
@@ -225,7 +227,7 @@ SimbodyLoop::Counters SimbodyLoop::integrateRungeKuttaMerson(double accuracy, co
     counters.gave_up = true;  // the caller still reports the earlier part
   }
   counters.derivative_evaluations = loop.system.getNumRealizationsOfThisStage(SimTK::Stage::Acceleration) - before;
-  counters.steps = integrator.getNumStepsTaken();
+  if (initialized) counters.steps = integrator.getNumStepsTaken();
   loop.applied->history = nullptr;
   if (lack) std::rethrow_exception(lack);  // it says nothing about the motion
   return counters;

@@ -316,5 +316,15 @@ TEST(LoopIntegration, rungeKuttaMersonObservesEveryInstantAskedFor) {
   EXPECT_GT(error, 0);
 }
 
+TEST(LoopIntegration, effortsThatFailAtOnceGiveUpTheIntegrationOnly) {
+  const Scenario scenario = vectorScenario("paper-helix");
+  SimbodyLoop loop(*scenario.manipulator);
+  loop.place(scenario.trajectory->at(0));
+  const auto none = [](double) -> Vector6d { throw std::runtime_error("the solver is gone"); };
+  const SimbodyLoop::Counters counters = loop.integrateRungeKuttaMerson(1e-8, none, {0.1}, [](double) {});
+  EXPECT_TRUE(counters.gave_up);
+  EXPECT_EQ(counters.steps, 0);
+}
+
 }  // namespace
 }  // namespace ursula
