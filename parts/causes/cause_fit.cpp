@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace ursula {
 namespace {
@@ -12,6 +13,7 @@ using Rows = std::vector<Vector6d>;
 constexpr std::size_t few_instants = 20, most_instants = 200;  // for the choice, for the fit
 constexpr std::size_t likely_causes = 64, best_causes = 12;
 constexpr double difference_step = 1e-5;
+constexpr double least_cosine = 1e-6, rounding = 1e-16;
 constexpr double may_be_rounding = 2;  ///< limits: one for the given torques, one for the cause's
 
 /// One cause on some instants.
@@ -36,7 +38,7 @@ class Fit {
   }
 
   double likenessOfSlope() const {
-    const Rows slope = slopeAt(0);
+    const Rows slope = slopeAtRight();
     const double size = norm(slope);
     if (!(size * difference_step > 1e-12 * norm(data_.exact))) return 0;
     return std::abs(dot(slope, data_.residual)) / (size * data_.norm());
@@ -49,20 +51,16 @@ class Fit {
     }
   }
 
-  void start(double at) {
-    x_ = at;
-    unexplained_ = unexplainedAt(at);
-  }
+  void start(double at) { start(at, remaining(at)); }
 
   double x() const { return x_; }
   double unexplained() const { return unexplained_; }
   double explained() const { return std::sqrt(1 - std::min(1.0, unexplained_ * unexplained_)); }
 
   Hypothesis hypothesis() {
-    const Rows left = remaining(x_);
-    const double deviation = cause_.fitted ? deviationAt(left) : 0;
-    Hypothesis out{cause_.words(x_, deviation), norm(left) / data_.norm(), cause_.fitted ? 1 : 0};
-    out.beyond = beyond(left);
+    const double deviation = cause_.fitted ? uncertainty() : 0;
+    Hypothesis out{cause_.words(x_, deviation), unexplained_, cause_.fitted ? 1 : 0};
+    out.beyond = beyond(left_);
     if (cause_.named) out.named = cause_.named(x_, deviation);
     if (cause_.fitted)
       out.says = [words = cause_.words, x = x_, deviation](double wider) { return words(x, wider * deviation); };
@@ -71,6 +69,12 @@ class Fit {
   }
 
  private:
+  void start(double at, Rows left) {
+    x_ = at;
+    left_ = std::move(left);
+    unexplained_ = norm(left_) / data_.norm();
+  }
+
   /// The remainder in multiples of its limits, which are wider where the cause's torques round more.
   double beyond(const Rows& left) const {
     const double as_of_right_ones = data_.beyond(left) / data_.growth();
@@ -93,7 +97,15 @@ class Fit {
     return out;
   }
 
-  double unexplainedAt(double at) const { return norm(remaining(at)) / data_.norm(); }
+  /// The slope at 0 as a choice needs it: a forward difference, because the right efforts are known.
+  Rows slopeAtRight() const {
+    if (cause_.slope) return cause_.slope(data_.motions);
+    const std::optional<Rows> above = torquesAt(difference_step);
+    if (!above) return slopeAt(0);
+    Rows out(data_.exact.size());
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] = ((*above)[k] - data_.exact[k]) / difference_step;
+    return out;
+  }
 
   /// The exact slope at 0 if the cause knows it, otherwise central differences. They are one-sided if a parameter
   /// cannot decrease.
@@ -108,17 +120,17 @@ class Fit {
     return out;
   }
 
-  /// Takes one step; returns false if nothing improves any more.
+  /// Takes one step; returns false if nothing improves any more. A step whose promise to first order is nothing, or
+  /// below the rounding of the efforts, is not tried.
   bool step() {
     const Rows slope = slopeAt(x_);
-    const double size = dot(slope, slope);
-    if (!(size > 0)) return false;
-    double dx = dot(slope, remaining(x_)) / size;
+    const double size = norm(slope), toward = dot(slope, left_) / size, left = norm(left_);
+    if (!(std::abs(toward) > least_cosine * left) || !(std::abs(toward) > rounding * norm(data_.exact))) return false;
+    double dx = toward / size;
     for (int halvings = 0; halvings < 8; ++halvings, dx /= 2) {
-      const double there = unexplainedAt(x_ + dx);
-      if (!(there < unexplained_)) continue;
-      x_ += dx;
-      unexplained_ = there;
+      Rows there = remaining(x_ + dx);
+      if (!(norm(there) < left)) continue;
+      start(x_ + dx, std::move(there));
       return std::abs(dx) > 1e-14;
     }
     return false;
@@ -126,13 +138,14 @@ class Fit {
 
   /// Two standard deviations of x from the remainder, or from the file's precision (uniform within its limits) if that
   /// is larger. A remainder with a pattern is another error, of which x may have taken as large a part.
-  double deviationAt(const Rows& left) const {
+  double uncertainty() const {
     const Rows slope = slopeAt(x_);
-    if (beyond(left) > may_be_rounding && hasPattern(left)) return 2 * std::sqrt(dot(left, left) / dot(slope, slope));
+    const double squares = dot(left_, left_);
+    if (beyond(left_) > may_be_rounding && hasPattern(left_)) return 2 * std::sqrt(squares / dot(slope, slope));
     double precision = 0;
     for (const Vector6d& row : data_.limit) precision += row.squaredNorm() / 3;
-    const double numbers = 6 * static_cast<double>(left.size());
-    const double variance = std::max(dot(left, left) / std::max(1.0, numbers - 1), precision / numbers);
+    const double numbers = 6 * static_cast<double>(left_.size());
+    const double variance = std::max(squares / std::max(1.0, numbers - 1), precision / numbers);
     return 2 * std::sqrt(variance / dot(slope, slope));
   }
 
@@ -149,6 +162,7 @@ class Fit {
   const Cause& cause_;
   const TorqueResidual& data_;
   double x_ = 0, unexplained_ = 1;
+  Rows left_;  ///< at x
 };
 
 struct Candidate {
