@@ -112,10 +112,12 @@ VectorXd LoopSolver::effortScale(const LoopWork& work) const {
     if (own.tree.element_of_body[b] < 0) continue;
     const Matrix3d I = tensorOf(bodies[b], work.bodies[b]);
     const Vector6d momentum = timesM(I, bodies[b].mass, work.bodies[b].twist);
-    Vector6d size = timesM(I, bodies[b].mass, work.bodies[b].twist_rate).cwiseAbs();
-    size.head<3>().array() += momentum.head<3>().norm() * work.bodies[b].twist.head<3>().norm();
-    if (!bodies[b].weightless) size.tail<3>() += bodies[b].mass * own.mechanism.gravity().cwiseAbs();
-    out += work.T[b].cwiseAbs().transpose() * size;
+    const Vector6d rate = timesM(I, bodies[b].mass, work.bodies[b].twist_rate);
+    const double moment = rate.head<3>().norm() + momentum.head<3>().norm() * work.bodies[b].twist.head<3>().norm();
+    double force = rate.tail<3>().norm();
+    if (!bodies[b].weightless) force += bodies[b].mass * own.mechanism.gravity().norm();
+    out += moment * work.T[b].topRows<3>().colwise().norm().transpose();
+    out += force * work.T[b].bottomRows<3>().colwise().norm().transpose();
   }
   return out;
 }

@@ -79,7 +79,8 @@ class LoopSolver {
   /// I of (34), motors × motors. Needs the results of inverseDynamics.
   loops::MatrixXd inertia(const LoopWork& work) const;
 
-  /// Returns the size of the terms that cancel in (37), for each motor. Needs the results of inverseDynamics.
+  /// Returns the size of the terms that cancel in (37), for each motor: norms of forces and moments times those of T's
+  /// columns, because products round by these in most frames. Needs the results of inverseDynamics.
   loops::VectorXd effortScale(const LoopWork& work) const;
 
   /// One coordinate of a joint with its rates, by the file's names and sense; a ball has four numbers and three rates.

@@ -8,6 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <functional>
 #include <string>
 
 #include "tests/loops/loop_scenario.h"
@@ -94,6 +95,28 @@ TEST(LoopSolver, holdsIdleRodsAtRestAndNamesThem) {
   }
   EXPECT_GT(moving, 1e-3);
   EXPECT_LT(spin, 1e-12);
+}
+
+/// The size of the terms that cancel in the first motor's effort where nothing moves but under gravity along
+/// `direction`.
+double sizeOfWeights(const std::function<Vector3d(const MechanismJoint&)>& direction) {
+  MechanismScenario scenario = changedScenario(loopScenario("fourbar"), [&](MechanismParameters& machine) {
+    machine.gravity = machine.gravity.norm() * direction(machine.joints[0]).normalized();
+    for (MechanismJoint& joint : machine.joints) joint.stiffness = joint.damping = joint.friction = 0;
+  });
+  scenario.trajectory = makeMotorHold(1, scenario.trajectory->at(0).q);
+  const MechanismAlong along(scenario);
+  LoopWork work;
+  static_cast<void>(along.motion().inverseDynamics(0, work));
+  return along.solver().effortScale(work)(0);
+}
+
+/// Weights round in most frames, also where they are square to the motion.
+TEST(LoopSolver, theWeightsOfAMachineThatLiesFlatCount) {
+  const double upright = sizeOfWeights([](const MechanismJoint& joint) { return joint.axis[0].unitOrthogonal(); });
+  const double flat = sizeOfWeights([](const MechanismJoint& joint) { return joint.axis[0]; });
+  EXPECT_GT(upright, 1e-3);
+  EXPECT_NEAR(flat / upright, 1, 1e-9);
 }
 
 class RefusedLoops : public testing::TestWithParam<std::pair<const char*, const char*>> {};
