@@ -17,8 +17,9 @@ foreach(heat hot cold)
   target_link_libraries(ursula_precompiled_${heat} PRIVATE ursula::options ursula::eigen fmt::fmt)
   target_precompile_headers(ursula_precompiled_${heat} PRIVATE
     <algorithm> <array> <cmath> <functional> <memory> <optional> <string> <vector>
-    <fmt/format.h> <Eigen/Geometry> <Eigen/LU> <base/real50.h>)
+    <fmt/format.h> <Eigen/Geometry> <Eigen/LU>)
 endforeach()
+target_precompile_headers(ursula_precompiled_cold PRIVATE <base/real50.h>)  # no hot code has 50 digits
 target_compile_options(ursula_precompiled_cold PRIVATE -O1)
 
 # The header was parsed with fmt's definitions, so a target that uses it needs them, too.
