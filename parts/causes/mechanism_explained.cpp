@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "parts/causes/explanation.h"
 #include "parts/causes/mechanism_tried.h"

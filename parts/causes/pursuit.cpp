@@ -31,10 +31,6 @@ Mistakes without(const Mistakes& of, std::size_t member) {
   return out;
 }
 
-Mistakes alone(const Mistakes& of, std::size_t member) {
-  return {{of.which[member]}, of.x.segment(static_cast<Index>(member), 1)};
-}
-
 /// Keeps those that leave least, each set once.
 void keepBest(std::vector<Mistakes>& sets, std::size_t most) {
   std::stable_sort(sets.begin(), sets.end(),
@@ -250,7 +246,7 @@ std::vector<Mistakes> Pursuit::extended(const std::vector<Mistakes>& smaller) co
 
 bool Pursuit::isEachNeeded(const Mistakes& mistakes) const {
   for (std::size_t i = 0; i < mistakes.which.size(); ++i) {
-    const std::optional<VectorXd> one = efforts(alone(mistakes, i), together_);
+    const std::optional<VectorXd> one = efforts(mistakes.only(i), together_);
     if (!one || !((*one - right_).norm() <= far_larger * (found_ - right_).norm())) return false;
     Mistakes others = without(mistakes, i);
     improve(others, 6);

@@ -46,6 +46,8 @@ struct Mistakes {
   double unexplained = 1;                  ///< ‖left‖ / ‖residual‖
   double beyond = 1e300;                   ///< the largest remainder, in multiples of its limit
   std::vector<std::size_t> any_body = {};  ///< those of `which` that another set has of another body
+
+  Mistakes only(std::size_t member) const { return {{which[member]}, x.segment(static_cast<Eigen::Index>(member), 1)}; }
 };
 
 /// What the numbers of several mistakes lack of certainty because they are fitted together, for each mistake.

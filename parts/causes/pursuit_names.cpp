@@ -11,10 +11,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-Mistakes onlyOne(const Mistakes& of, std::size_t member) {
-  return {{of.which[member]}, of.x.segment(static_cast<Index>(member), 1)};
-}
-
 /// Makes the uncertainty of a number that of one of several: `inflation` times as large, and at least the part `shift`
 /// of what is wrong with it. Returns the words with it.
 std::string withDoubt(double inflation, double shift, NamedAlone& named) {
@@ -44,7 +40,7 @@ std::optional<SeveralNamed> nameSet(const Pursuit& pursuit, const Mistakes& mist
   const std::optional<VectorXd> all = pursuit.efforts(mistakes, together);
   const NumbersDoubt doubt = pursuit.doubt(mistakes);
   for (std::size_t i = 0; i < mistakes.which.size(); ++i) {
-    const std::optional<VectorXd> one = pursuit.efforts(onlyOne(mistakes, i), together);
+    const std::optional<VectorXd> one = pursuit.efforts(mistakes.only(i), together);
     if (!all || !one) return std::nullopt;
     const VectorXd effect = residual + (*one - *all);
     std::optional<NamedAlone> named = name(effect);

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <algorithm>
 
 #include "parts/fast/solver.h"
 #include "parts/prove/defects.h"

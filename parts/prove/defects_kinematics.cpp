@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "parts/fast/solver.h"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 
 #include "parts/prove/defects.h"
 
@@ -62,107 +61,82 @@ void setMap(LegState<double>& leg, std::size_t j, const Vector3d& k) {
   leg.row[j].n = k;
 }
 
-/// One error in a leg, before or after its map is computed.
+/// One error in a leg of a kind, before or after its map is computed.
 struct WrongLeg {
+  LegKind kind;
   const char* what;
   ChangeState change;
   enum { angles, place, map } when = angles;
 };
 
-const std::vector<WrongLeg>& wrongUps() {
+const std::vector<WrongLeg>& wrongLegs() {
+  using K = LegKind;
+  using W = WrongLeg;
   static const std::vector<WrongLeg> all = {
-      {"phi by atan2(k_x, k_z)", [](const Model&, auto& leg) { leg.sine[0] *= -1; }},
-      {"psi from the plane across the axis", [](const Model&, auto& leg) { std::swap(leg.sine[1], leg.cosine[1]); }},
-      {"psi from -u", [](const Model&, auto& leg) { leg.cosine[1] *= -1; }},
-      {"d from the rod's inner end", [](const Model& model, auto& leg) { leg.cosine[2] -= model.s; }},
-      {"rod's inner end at d", [](const Model&, auto& leg) { leg.O_2 = leg.cosine[2] * leg.axis[2]; }, WrongLeg::place},
-      {"rod's mass centre does not slide along",
-       [](const Model& model, auto& leg) { leg.arm_2 = model.sigma * leg.axis[2] - leg.O_2; }, WrongLeg::place},
-      {"cylinder slides along with its rod", [](const Model&, auto& leg) { leg.arm_1 += leg.O_2; }, WrongLeg::place},
-      {"x of the plane reversed", [](const Model&, auto& leg) { leg.x *= -1; }, WrongLeg::place},
-      {"rod's tensor does not turn", [](const Model&, auto& leg) { leg.R_2.setIdentity(); }, WrongLeg::place},
-      {"phi's rate with d for its lever",
-       [](const Model&, auto& leg) { setMap(leg, 0, mapOf(leg, 0) * (leg.sine[1])); }, WrongLeg::map},
-      {"psi's rate with the stroke for d",
+      {K::UPS, "phi by atan2(k_x, k_z)", [](const Model&, auto& leg) { leg.sine[0] *= -1; }},
+      {K::UPS, "psi from the plane across the axis",
+       [](const Model&, auto& leg) { std::swap(leg.sine[1], leg.cosine[1]); }},
+      {K::UPS, "psi from -u", [](const Model&, auto& leg) { leg.cosine[1] *= -1; }},
+      {K::UPS, "d from the rod's inner end", [](const Model& model, auto& leg) { leg.cosine[2] -= model.s; }},
+      {K::UPS, "rod's inner end at d", [](const Model&, auto& leg) { leg.O_2 = leg.cosine[2] * leg.axis[2]; },
+       W::place},
+      {K::UPS, "rod's mass centre does not slide along",
+       [](const Model& model, auto& leg) { leg.arm_2 = model.sigma * leg.axis[2] - leg.O_2; }, W::place},
+      {K::UPS, "cylinder slides along with its rod", [](const Model&, auto& leg) { leg.arm_1 += leg.O_2; }, W::place},
+      {K::UPS, "x of the plane reversed", [](const Model&, auto& leg) { leg.x *= -1; }, W::place},
+      {K::UPS, "rod's tensor does not turn", [](const Model&, auto& leg) { leg.R_2.setIdentity(); }, W::place},
+      {K::UPS, "phi's rate with d for its lever",
+       [](const Model&, auto& leg) { setMap(leg, 0, mapOf(leg, 0) * leg.sine[1]); }, W::map},
+      {K::UPS, "psi's rate with the stroke for d",
        [](const Model& model, auto& leg) {
          setMap(leg, 1, mapOf(leg, 1) * (leg.cosine[2] / (leg.cosine[2] - model.s)));
        },
-       WrongLeg::map},
-      {"sign of d's rate", [](const Model&, auto& leg) { setMap(leg, 2, mapOf(leg, 2) * (-1)); }, WrongLeg::map}};
-  return all;
-}
-
-const std::vector<WrongLeg>& wrongRus() {
-  static const std::vector<WrongLeg> all = {
-      {"crank along the line to B",
+       W::map},
+      {K::UPS, "sign of d's rate", [](const Model&, auto& leg) { setMap(leg, 2, mapOf(leg, 2) * -1); }, W::map},
+      {K::RUS, "crank along the line to B",
        [](const Model& model, auto& leg) {
          const double k_x = model.x_hat.dot(leg.AB), k_z = model.z_hat.dot(leg.AB), r = std::hypot(k_x, k_z);
          leg.sine[0] = -k_x / r;
          leg.cosine[0] = k_z / r;
        }},
-      {"phi by atan2(k_x, k_z)", [](const Model&, auto& leg) { leg.sine[0] *= -1; }},
-      {"sign of psi", [](const Model&, auto& leg) { leg.sine[1] *= -1; }},
-      {"sign of theta", [](const Model&, auto& leg) { leg.sine[2] *= -1; }},
-      {"theta from the axis", [](const Model&, auto& leg) { std::swap(leg.sine[2], leg.cosine[2]); }},
-      {"rod turns about the crank's x", [](const Model&, auto& leg) { leg.x_2 = leg.x; }, WrongLeg::place},
-      {"rod's tensor in the crank's axes", [](const Model&, auto& leg) { leg.R_2 = leg.R_1; }, WrongLeg::place},
-      {"rod from A", [](const Model&, auto& leg) { leg.O_2.setZero(); }, WrongLeg::place},
-      {"phi's rate without cos theta", [](const Model&, auto& leg) { setMap(leg, 0, mapOf(leg, 0) * (leg.cosine[2])); },
-       WrongLeg::map},
-      {"psi's rate that of phi + psi", [](const Model&, auto& leg) { setMap(leg, 1, mapOf(leg, 1) + mapOf(leg, 0)); },
-       WrongLeg::map},
-      {"theta's rate without cos theta",
-       [](const Model&, auto& leg) { setMap(leg, 2, mapOf(leg, 2) * (leg.cosine[2])); }, WrongLeg::map}};
+      {K::RUS, "phi by atan2(k_x, k_z)", [](const Model&, auto& leg) { leg.sine[0] *= -1; }},
+      {K::RUS, "sign of psi", [](const Model&, auto& leg) { leg.sine[1] *= -1; }},
+      {K::RUS, "sign of theta", [](const Model&, auto& leg) { leg.sine[2] *= -1; }},
+      {K::RUS, "theta from the axis", [](const Model&, auto& leg) { std::swap(leg.sine[2], leg.cosine[2]); }},
+      {K::RUS, "rod turns about the crank's x", [](const Model&, auto& leg) { leg.x_2 = leg.x; }, W::place},
+      {K::RUS, "rod's tensor in the crank's axes", [](const Model&, auto& leg) { leg.R_2 = leg.R_1; }, W::place},
+      {K::RUS, "rod from A", [](const Model&, auto& leg) { leg.O_2.setZero(); }, W::place},
+      {K::RUS, "phi's rate without cos theta",
+       [](const Model&, auto& leg) { setMap(leg, 0, mapOf(leg, 0) * leg.cosine[2]); }, W::map},
+      {K::RUS, "psi's rate that of phi + psi",
+       [](const Model&, auto& leg) { setMap(leg, 1, mapOf(leg, 1) + mapOf(leg, 0)); }, W::map},
+      {K::RUS, "theta's rate without cos theta",
+       [](const Model&, auto& leg) { setMap(leg, 2, mapOf(leg, 2) * leg.cosine[2]); }, W::map},
+      {K::PUS, "d by k_y + s cos theta",
+       [](const Model& model, auto& leg) { leg.cosine[0] += 2 * model.s * leg.cosine[2]; }},
+      {K::PUS, "psi by atan2(k_x, k_z)", [](const Model&, auto& leg) { leg.sine[1] *= -1; }},
+      {K::PUS, "theta from the plane across the rail",
+       [](const Model&, auto& leg) { std::swap(leg.sine[2], leg.cosine[2]); }},
+      {K::PUS, "sign of cos theta", [](const Model&, auto& leg) { leg.cosine[2] *= -1; }},
+      {K::PUS, "rod's tensor in the carriage's axes", [](const Model&, auto& leg) { leg.R_2 = leg.R_1; }, W::place},
+      {K::PUS, "d's rate with the other sign of tan theta",
+       [](const Model& model, auto& leg) { setMap(leg, 0, 2 * model.u - mapOf(leg, 0)); }, W::map},
+      {K::PUS, "psi's rate without sin theta",
+       [](const Model&, auto& leg) { setMap(leg, 1, mapOf(leg, 1) * leg.sine[2]); }, W::map},
+      {K::PUS, "theta's rate without cos theta",
+       [](const Model&, auto& leg) { setMap(leg, 2, mapOf(leg, 2) * leg.cosine[2]); }, W::map},
+      {K::URS, "phi by atan2(k_x, k_z)", [](const Model&, auto& leg) { leg.sine[0] *= -1; }},
+      {K::URS, "psi from -u", [](const Model&, auto& leg) { leg.cosine[1] *= -1; }},
+      {K::URS, "sign of theta", [](const Model&, auto& leg) { leg.sine[2] *= -1; }},
+      {K::URS, "distal tensor in the proximal link's axes", [](const Model&, auto& leg) { leg.R_2 = leg.R_1; },
+       W::place}};
   return all;
 }
 
-const std::vector<WrongLeg>& wrongPus() {
-  static const std::vector<WrongLeg> all = {
-      {"d by k_y + s cos theta", [](const Model& model, auto& leg) { leg.cosine[0] += 2 * model.s * leg.cosine[2]; }},
-      {"psi by atan2(k_x, k_z)", [](const Model&, auto& leg) { leg.sine[1] *= -1; }},
-      {"theta from the plane across the rail", [](const Model&, auto& leg) { std::swap(leg.sine[2], leg.cosine[2]); }},
-      {"sign of cos theta", [](const Model&, auto& leg) { leg.cosine[2] *= -1; }},
-      {"rod's tensor in the carriage's axes", [](const Model&, auto& leg) { leg.R_2 = leg.R_1; }, WrongLeg::place},
-      {"d's rate with the other sign of tan theta",
-       [](const Model& model, auto& leg) { setMap(leg, 0, 2 * model.u - mapOf(leg, 0)); }, WrongLeg::map},
-      {"psi's rate without sin theta", [](const Model&, auto& leg) { setMap(leg, 1, mapOf(leg, 1) * (leg.sine[2])); },
-       WrongLeg::map},
-      {"theta's rate without cos theta",
-       [](const Model&, auto& leg) { setMap(leg, 2, mapOf(leg, 2) * (leg.cosine[2])); }, WrongLeg::map}};
-  return all;
-}
-
-const std::vector<WrongLeg>& wrongUrs() {
-  static const std::vector<WrongLeg> all = {
-      {"phi by atan2(k_x, k_z)", [](const Model&, auto& leg) { leg.sine[0] *= -1; }},
-      {"psi from -u", [](const Model&, auto& leg) { leg.cosine[1] *= -1; }},
-      {"sign of theta", [](const Model&, auto& leg) { leg.sine[2] *= -1; }},
-      {"distal tensor in the proximal link's axes", [](const Model&, auto& leg) { leg.R_2 = leg.R_1; },
-       WrongLeg::place}};
-  return all;
-}
-
-const std::vector<WrongLeg>& wrongLegs(LegKind kind) {
-  switch (kind) {
-    case LegKind::UPS:
-      return wrongUps();
-    case LegKind::RUS:
-      return wrongRus();
-    case LegKind::PUS:
-      return wrongPus();
-    case LegKind::URS:
-      return wrongUrs();
-    default:
-      break;
-  }
-  static const std::vector<WrongLeg> none;
-  return none;
-}
-
-WithFormulaErrors faultOf(LegKind kind, const WrongLeg& wrong) {
+WithFormulaErrors faultOf(const WrongLeg& wrong) {
   WithFormulaErrors fault;
-  const auto change = [kind, wrong](const Model& model, LegState<double>& leg) {
-    if (model.kind != kind) return;
+  const auto change = [wrong](const Model& model, LegState<double>& leg) {
+    if (model.kind != wrong.kind) return;
     wrong.change(model, leg);
     if (wrong.when == WrongLeg::angles) stand(model, leg);
   };
@@ -176,8 +150,9 @@ std::vector<Defect> legDefects(const Manipulator& machine) {
   std::vector<Defect> out;
   for (const LegKind kind : kindsOf(machine)) {
     if (kind == LegKind::URS && machine.isOfThePaper()) continue;  // its printed formulas cover more
-    for (const WrongLeg& wrong : wrongLegs(kind))
-      out.push_back(wrongFormula(fmt::format("{}: {}", rowOf(kind).name, wrong.what), "formula", faultOf(kind, wrong)));
+    for (const WrongLeg& wrong : wrongLegs())
+      if (wrong.kind == kind)
+        out.push_back(wrongFormula(fmt::format("{}: {}", rowOf(kind).name, wrong.what), "formula", faultOf(wrong)));
   }
   return out;
 }

@@ -1,12 +1,9 @@
 #include "parts/simulate/simulate.h"
 
 #include <fmt/format.h>
+
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <boost/numeric/odeint.hpp>
 #include <cmath>
-#include <limits>
-#include <new>
 #include <stdexcept>
 
 #include "base/csv.h"
@@ -15,6 +12,7 @@
 #include "nocsolver/errors.h"
 #include "nocsolver/noc/noc.h"
 #include "parts/fast/solver.h"
+#include "parts/simulate/at_instants.h"
 #include "simbody/simbody_loop.h"
 #include "validation/subject/leg_points.h"
 #include "validation/subject/subject.h"
@@ -23,13 +21,43 @@
 namespace ursula {
 namespace {
 
-namespace odeint = boost::numeric::odeint;
-using OdeState = std::vector<double>;
+/// Detects the end of the legs' reach from their joint variables.
+struct ReachEnds {
+  explicit ReachEnds(const Manipulator& machine) : legs(machine.parameters().legs) {}
+
+  double of(const JointVariables<double>& q, int i) const {
+    const Leg& leg = legs[i];
+    return typeOf(leg.kind).margin(leg, q, i);
+  }
+
+  std::runtime_error outOfReach(const JointVariables<double>& q, int i, double t) const {
+    return std::runtime_error(fmt::format("the motion leaves what leg {} reaches: it is {} at t = {:.9g} s", i + 1,
+                                          typeOf(legs[i].kind).endOfReach(q, i), t));
+  }
+
+  /// Names the leg whose margin is small, since that shrinks the steps.
+  void requireOff(const JointVariables<double>& q, double t) const {
+    constexpr double at_edge = 1e-3;
+    for (std::size_t k = 0; k < legs.size(); ++k)
+      if (const int i = static_cast<int>(k); std::abs(of(q, i)) < at_edge) throw outOfReach(q, i, t);
+  }
+
+  std::vector<Leg> legs;
+};
+
+/// A leg whose knee bends the other way has passed its stretched or folded pose, the end of its reach. The same holds
+/// for a rod outside its cylinder.
+void checkKnees(const ReachEnds& ends, const JointVariables<double>& before, const JointVariables<double>& now,
+                double t) {
+  for (std::size_t k = 0; k < ends.legs.size(); ++k)
+    if (const int i = static_cast<int>(k); ends.of(before, i) * ends.of(now, i) <= 0) throw ends.outOfReach(now, i, t);
+}
 
 /// x = [p, q (w, x, y, z), ṗ, ω].
 class NocSystem {
  public:
-  NocSystem(const Scenario& scenario) : load_(scenario.load), solver_(*scenario.manipulator) {}
+  NocSystem(const Scenario& scenario)
+      : load_(scenario.load), solver_(*scenario.manipulator), ends_(*scenario.manipulator) {}
 
   OdeState start(const Motion<double>& motion) const {
     const Eigen::Quaterniond q(motion.Q);
@@ -53,13 +81,12 @@ class NocSystem {
     return motion;
   }
 
-  /// The joints of the last differentiated state.
-  JointVariables<double> joints() {
+  /// The solver already refuses poses that a leg cannot reach.
+  void finish(double, const OdeState&) const {}
+  void requireSteps(double t) {
     solver_.displacements(last_, work_);
-    return solver_.angles(work_);
+    ends_.requireOff(solver_.angles(work_), t);
   }
-  /// Checks an accepted step; the solver already refuses poses that a leg cannot reach.
-  void check(double, const OdeState&) const {}
 
   void derivative(double t, const OdeState& x, const Vector6d& torques, OdeState& rate) {
     const Motion<double> now = motion(t, x, torques);
@@ -74,42 +101,9 @@ class NocSystem {
   std::shared_ptr<const Load> load_;
   Solver<double> solver_;
   Workspace<double> work_;
+  ReachEnds ends_;
   Motion<double> last_;  ///< the last motion that the solver accepted
 };
-
-/// Detects the end of the legs' reach from their joint variables.
-struct ReachEnds {
-  explicit ReachEnds(const Manipulator& machine) : legs(machine.parameters().legs) {}
-
-  double of(const JointVariables<double>& q, int i) const {
-    const Leg& leg = legs[i];
-    return typeOf(leg.kind).margin(leg, q, i);
-  }
-
-  std::runtime_error outOfReach(const JointVariables<double>& q, int i, double t) const {
-    return std::runtime_error(fmt::format("the motion leaves what leg {} reaches: it is {} at t = {:.9g} s", i + 1,
-                                          typeOf(legs[i].kind).endOfReach(q, i), t));
-  }
-
-  std::vector<Leg> legs;
-};
-
-/// A leg whose knee bends the other way has passed its stretched or folded pose, the end of its reach. The same holds
-/// for a rod outside its cylinder.
-void checkKnees(const ReachEnds& ends, const JointVariables<double>& before, const JointVariables<double>& now,
-                double t) {
-  for (std::size_t k = 0; k < ends.legs.size(); ++k)
-    if (const int i = static_cast<int>(k); ends.of(before, i) * ends.of(now, i) <= 0) throw ends.outOfReach(now, i, t);
-}
-
-/// If a margin is smaller than this, the end of reach causes the shrinking steps.
-constexpr double at_edge = 1e-3;
-
-void stopped(const ReachEnds& ends, const JointVariables<double>& q, double t) {
-  for (std::size_t k = 0; k < ends.legs.size(); ++k)
-    if (const int i = static_cast<int>(k); std::abs(ends.of(q, i)) < at_edge) throw ends.outOfReach(q, i, t);
-  throw std::runtime_error(fmt::format("the steps shrink to nothing at t = {:.9g} s", t));
-}
 
 class SimbodySystem {
  public:
@@ -132,13 +126,11 @@ class SimbodySystem {
     loop_.derivative(t, x.data(), torques, rate.data());
   }
 
-  /// The joints of the last differentiated state.
-  JointVariables<double> joints() const { return loop_.joints().q; }
-  /// Checks an accepted step.
-  void check(double t, const OdeState& x) {
+  void finish(double t, const OdeState& x) {
     loop_.setState(t, x.data());
-    checkKnees(ends_, start_, joints(), t);
+    checkKnees(ends_, start_, loop_.joints().q, t);
   }
+  void requireSteps(double t) const { ends_.requireOff(loop_.joints().q, t); }
 
  private:
   SimbodyLoop loop_;
@@ -146,62 +138,21 @@ class SimbodySystem {
   JointVariables<double> start_;  ///< of the commanded state
 };
 
-/// Ends the run if steps shrink to nothing.
-class Progress {
- public:
-  explicit Progress(const std::vector<double>& instants)
-      : since_(instants.front()), least_(1e-3 * (instants.back() - instants.front())) {}
-
-  /// Called at each evaluation; returns false if `patience` of them advanced less than a thousandth of the time.
-  bool goesOn(double t) {
-    if (++evaluations_ % patience != 0) return true;
-    const double gained = t - since_;
-    since_ = t;
-    return gained > least_;
-  }
-
- private:
-  static constexpr long patience = 20'000;
-  double since_, least_;
-  long evaluations_ = 0;
-};
-
 template <class System>
 Simulation integrate(System system, const Scenario& scenario, const EffortHistory& torques,
                      const std::vector<double>& instants, double tolerance, const Deadline& deadline) {
   Simulation out;
-  OdeState x = system.start(scenario.trajectory->at(instants.front()));
-  auto stepper = odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_fehlberg78<OdeState>());
-  Progress progress(instants);
-  const auto derivative = [&](const OdeState& at, OdeState& rate, double t) {
-    ++out.evaluations;
-    deadline.require();
-    system.derivative(t, at, torques(t), rate);
-    for (double value : rate)
-      if (!std::isfinite(value)) throw std::runtime_error(fmt::format("derivatives not finite at t = {} s", t));
-    if (!progress.goesOn(t)) stopped(ReachEnds(*scenario.manipulator), system.joints(), t);
+  const auto record = [&](double t, const OdeState& x) {
+    const Vector6d now = torques(t);
+    const Motion<double> motion = system.motion(t, x, now);
+    requireFinite(motion);
+    out.torques.push_back(now);
+    out.motions.push_back(motion);
   };
-  double t = instants.front(), dt = (instants.back() - instants.front()) / 128;
-  try {
-    for (double instant : instants) {
-      while (instant - t > std::numeric_limits<double>::epsilon() * std::abs(instant)) {
-        double step = std::min(dt, instant - t);
-        const bool cut = step < dt;
-        const auto outcome = stepper.try_step(derivative, x, t, step);
-        dt = cut && outcome == odeint::success ? std::max(dt, step) : step;
-        if (outcome == odeint::success) system.check(t, x);
-      }
-      const Vector6d now = torques(instant);
-      const Motion<double> motion = system.motion(instant, x, now);
-      requireFinite(motion);
-      out.torques.push_back(now);
-      out.motions.push_back(motion);
-    }
-  } catch (const std::bad_alloc&) {
-    throw;  // a lack of memory says nothing about the motion
-  } catch (const std::exception& error) {
-    out.gave_up = error.what();  // the completed part is still reported
-  }
+  const RunEnd end =
+      stopAtInstants(system, scenario.trajectory->at(instants.front()), torques, instants, tolerance, deadline, record);
+  out.evaluations = end.evaluations;
+  out.gave_up = end.gave_up;
   return out;
 }
 

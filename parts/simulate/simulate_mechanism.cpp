@@ -3,22 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/numeric/odeint.hpp>
-#include <cmath>
-#include <limits>
-#include <new>
-#include <stdexcept>
 
 #include "base/csv.h"
+#include "parts/simulate/at_instants.h"
 #include "simbody/simbody_mechanism.h"
 #include "validation/mechanism/output_pose.h"
 #include "validation/subject/torque_spline.h"
 
 namespace ursula {
 namespace {
-
-namespace odeint = boost::numeric::odeint;
-using OdeState = std::vector<double>;
 
 /// y = [q, u] of Simbody's own coordinates.
 class SimbodyOfLoops {
@@ -40,6 +33,7 @@ class SimbodyOfLoops {
     simbody_.project();
     y = simbody_.state();
   }
+  void requireSteps(double) const {}
   MechanismInstant at(double t, const OdeState& y, const Eigen::VectorXd& efforts) {
     simbody_.setState(t, y.data());
     MechanismInstant out;
@@ -75,6 +69,7 @@ class NocOfLoops {
   }
   /// The next step starts from the assembly of this one.
   void finish(double t, OdeState& y) { solver_.moveTo(motionOf(t, y).q, near_); }
+  void requireSteps(double) const {}
   MechanismInstant at(double t, const OdeState& y, const Eigen::VectorXd& efforts) {
     MechanismInstant out;
     out.motion = move(t, y, efforts);
@@ -103,91 +98,24 @@ class NocOfLoops {
   LoopWork work_;
 };
 
-/// Ends the run if steps shrink to nothing.
-class Patience {
- public:
-  explicit Patience(const std::vector<double>& instants)
-      : since_(instants.front()), least_(1e-3 * (instants.back() - instants.front())) {}
-
-  void require(double t) {
-    constexpr long patience = 20'000;
-    if (++evaluations_ % patience != 0) return;
-    if (t - since_ <= least_) throw std::runtime_error(fmt::format("the steps shrink to nothing at t = {:.9g} s", t));
-    since_ = t;
-  }
-
- private:
-  double since_, least_;
-  long evaluations_ = 0;
-};
-
 template <class System>
-class LoopRun {
- public:
-  LoopRun(System system, const MotorEffortHistory& efforts, const std::vector<double>& instants, double tolerance,
-          const Deadline& deadline)
-      : system_(std::move(system)),
-        efforts_(efforts),
-        instants_(instants),
-        stepper_(odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_fehlberg78<OdeState>())),
-        patience_(instants),
-        deadline_(deadline) {}
-
-  MechanismSimulation from(const MotorMotion& start) {
-    MechanismSimulation out;
-    y_ = system_.start(start);
-    t_ = instants_.front();
-    step_ = (instants_.back() - t_) / 128;
-    try {
-      for (const double instant : instants_) {
-        goTo(instant);
-        out.instants.push_back(system_.at(instant, y_, efforts_(instant)));
-      }
-    } catch (const std::bad_alloc&) {
-      throw;  // a lack of memory says nothing about the motion
-    } catch (const std::exception& error) {
-      out.gave_up = error.what();  // the completed part is still reported
-    }
-    return out;
-  }
-
- private:
-  void goTo(double instant) {
-    const auto derivative = [this](const OdeState& y, OdeState& rate, double t) {
-      deadline_.require();
-      system_.derivative(t, y, efforts_(t), rate);
-      for (const double value : rate)
-        if (!std::isfinite(value)) throw std::runtime_error(fmt::format("derivatives not finite at t = {} s", t));
-      patience_.require(t);
-    };
-    while (instant - t_ > std::numeric_limits<double>::epsilon() * std::abs(instant)) {
-      double step = std::min(step_, instant - t_);
-      const bool cut = step < step_;
-      const auto outcome = stepper_.try_step(derivative, y_, t_, step);
-      step_ = cut && outcome == odeint::success ? std::max(step_, step) : step;
-      if (outcome == odeint::success) system_.finish(t_, y_);
-    }
-  }
-
-  System system_;
-  const MotorEffortHistory& efforts_;
-  const std::vector<double>& instants_;
-  decltype(odeint::make_controlled(0.0, 0.0, odeint::runge_kutta_fehlberg78<OdeState>())) stepper_;
-  Patience patience_;
-  Deadline deadline_;
-  OdeState y_;
-  double t_ = 0, step_ = 0;
-};
+MechanismSimulation integrate(System system, const MechanismAlong& along, const MotorEffortHistory& efforts,
+                              const std::vector<double>& instants, double tolerance, const Deadline& deadline) {
+  MechanismSimulation out;
+  const auto record = [&](double t, const OdeState& y) { out.instants.push_back(system.at(t, y, efforts(t))); };
+  const MotorMotion start = along.motion().trajectory().at(instants.front());
+  out.gave_up = stopAtInstants(system, start, efforts, instants, tolerance, deadline, record).gave_up;
+  return out;
+}
 
 }  // namespace
 
 MechanismSimulation simulateMechanism(const MechanismAlong& along, SimulationEngine engine,
                                       const MotorEffortHistory& efforts, const std::vector<double>& instants,
                                       double tolerance, const Deadline& deadline) {
-  const MotorMotion start = along.motion().trajectory().at(instants.front());
-  if (engine == SimulationEngine::noc)
-    return LoopRun<NocOfLoops>(NocOfLoops(along), efforts, instants, tolerance, deadline).from(start);
-  return LoopRun<SimbodyOfLoops>(SimbodyOfLoops(along), efforts, instants, tolerance, deadline).from(start);
+  return engine == SimulationEngine::noc
+             ? integrate(NocOfLoops(along), along, efforts, instants, tolerance, deadline)
+             : integrate(SimbodyOfLoops(along), along, efforts, instants, tolerance, deadline);
 }
 
 MotorEffortHistory effortSpline(const GivenEfforts& given) {

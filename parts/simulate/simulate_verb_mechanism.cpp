@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "apps/mechanism.h"
 #include "apps/output.h"
 #include "apps/verbs.h"

@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <functional>
-#include <limits>
+#include <string>
 #include <vector>
 
 #include "model/scenario.h"
@@ -37,89 +37,70 @@ TEST_P(RefusedManipulator, namesPlaceValueAndBound) {
   EXPECT_NO_THROW(Manipulator{machine});
   GetParam().fault(machine);
   EXPECT_THAT(refusedParameter([&] { Manipulator{machine}; }),
-              FieldsAre(GetParam().place, HasSubstr(GetParam().value), HasSubstr(GetParam().bound)));
+              FieldsAre(std::string("manipulator.") + GetParam().place, HasSubstr(GetParam().value),
+                        HasSubstr(GetParam().bound)));
 }
 
-std::string nameOf(const testing::TestParamInfo<Refusal>& row) { return row.param.name; }
-
-INSTANTIATE_TEST_SUITE_P(
-    Platform, RefusedManipulator,
-    testing::Values(
-        Refusal{"gravity", [](Machine& m) { m.gravity.z() = nan; }, "manipulator.gravity", "nan", "finite numbers"},
-        Refusal{"mass_zero", [](Machine& m) { m.platform.mass = 0; }, "manipulator.platform.mass", "0", "> 0"},
-        Refusal{"mass_nan", [](Machine& m) { m.platform.mass = nan; }, "manipulator.platform.mass", "nan", "finite"},
-        Refusal{"mass_inf", [](Machine& m) { m.platform.mass = inf; }, "manipulator.platform.mass", "inf", "finite"},
-        Refusal{"centre", [](Machine& m) { m.platform.center_of_mass.x() = inf; },
-                "manipulator.platform.center_of_mass", "inf", "finite numbers"},
-        Refusal{"inertia_nan", [](Machine& m) { m.platform.inertia(1, 2) = nan; }, "manipulator.platform.inertia",
-                "non-finite", "finite numbers"},
-        Refusal{"asymmetric", [](Machine& m) { m.platform.inertia(0, 1) = 1; }, "manipulator.platform.inertia",
-                "not symmetric", "a symmetric tensor"},
-        Refusal{"indefinite", [](Machine& m) { m.platform.inertia(0, 0) = -1; }, "manipulator.platform.inertia",
-                "principal moments [-1, 810", "all principal moments > 0"},
-        Refusal{"off_diagonal", [](Machine& m) { m.platform.inertia(0, 1) = m.platform.inertia(1, 0) = 900; },
-                "manipulator.platform.inertia", "principal moments [-", "all principal moments > 0"},
-        Refusal{"triangle", [](Machine& m) { m.platform.inertia(2, 2) = 1610.1; }, "manipulator.platform.inertia",
-                "[800, 810, 1610.1]", "<= the sum of the others, 1610"}),
-    nameOf);
-
-INSTANTIATE_TEST_SUITE_P(
-    Legs, RefusedManipulator,
-    testing::Values(
-        Refusal{"base_point", [](Machine& m) { m.legs[0].base_point.x() = nan; }, "manipulator.leg[1].base_point",
-                "nan", "finite numbers"},
-        Refusal{"axis_zero", [](Machine& m) { m.legs[5].base_axis.setZero(); }, "manipulator.leg[6].base_axis",
-                "[0, 0, 0]", "not zero"},
-        Refusal{"axis_nan", [](Machine& m) { m.legs[5].base_axis.y() = nan; }, "manipulator.leg[6].base_axis", "nan",
-                "finite numbers"},
-        Refusal{"platform_point", [](Machine& m) { m.legs[2].platform_point.z() = -inf; },
-                "manipulator.leg[3].platform_point", "-inf", "finite numbers"},
-        Refusal{"length", [](Machine& m) { m.legs[1].proximal.length = 0; }, "manipulator.leg[2].proximal.length", "0",
-                "> 0"},
-        Refusal{"link_mass", [](Machine& m) { m.legs[1].distal.mass = -2; }, "manipulator.leg[2].distal.mass", "-2",
-                ">= 0"},
-        Refusal{"link_without_mass", [](Machine& m) { m.legs[1].distal.mass = 0; }, "manipulator.leg[2].distal.inertia",
-                "0.015]", "zero, as the link's mass is 0"},
-        Refusal{"link_centre", [](Machine& m) { m.legs[1].distal.center_of_mass = nan; },
-                "manipulator.leg[2].distal.center_of_mass", "nan", "finite"},
-        Refusal{"link_inertia", [](Machine& m) { m.legs[4].proximal.inertia(0, 0) = 0; },
-                "manipulator.leg[5].proximal.inertia", "principal moments [0, ", "> 0"},
-        Refusal{"rod_not_round", [](Machine& m) { m.legs[4].distal.inertia = Vector3d(4, 4.1, 0).asDiagonal(); },
-                "manipulator.leg[5].distal.inertia", "[0, 4, 4.1]", "<= the sum of the others"},
-        Refusal{"rod_with_product",
-                [](Machine& m) {
-                  m.legs[4].distal.inertia(2, 2) = 0,
-                                              m.legs[4].distal.inertia(0, 2) = m.legs[4].distal.inertia(2, 0) = 0.1;
-                },
-                "manipulator.leg[5].distal.inertia", "principal moments [-", "of a thin rod"},
-        Refusal{"off_line_along", [](Machine& m) { m.legs[1].distal.off_line.z() = 0.1; },
-                "manipulator.leg[2].distal.center_of_mass", "0.1", "across the link's line"},
-        Refusal{"off_line_nan", [](Machine& m) { m.legs[1].distal.off_line.x() = nan; },
-                "manipulator.leg[2].distal.center_of_mass", "nan", "finite"},
-        Refusal{"rotor_negative", [](Machine& m) { m.legs[3].rotor_inertia.phi = -1; },
-                "manipulator.leg[4].rotor_inertia.phi", "-1", ">= 0"},
-        Refusal{"rotor_nan", [](Machine& m) { m.legs[3].rotor_inertia.phi = nan; },
-                "manipulator.leg[4].rotor_inertia.phi", "nan", "finite"},
-        Refusal{"rotor_undriven", [](Machine& m) { m.legs[3].rotor_inertia.theta = 2; },
-                "manipulator.leg[4].rotor_inertia.theta", "2", "no motor drives theta"},
-        Refusal{"rotor_elsewhere", [](Machine& m) { m.legs[3].rotor_inertia.d = 2; },
-                "manipulator.leg[4].rotor_inertia.d", "2", "no motor drives d"},
-        Refusal{"spin", [](Machine& m) { m.legs[3].spins = true; }, "manipulator.leg[4].spin", "URS", "held"},
-        Refusal{"friction_actuated", [](Machine& m) { m.legs[3].friction.phi = -1; }, "manipulator.leg[4].friction.phi",
-                "-1", ">= 0"},
-        Refusal{"friction_universal", [](Machine& m) { m.legs[3].friction.psi = nan; },
-                "manipulator.leg[4].friction.psi", "nan", "finite"},
-        Refusal{"friction_knee", [](Machine& m) { m.legs[3].friction.theta = -1e-300; },
-                "manipulator.leg[4].friction.theta", "-1e-300", ">= 0"},
-        Refusal{"coulomb", [](Machine& m) { m.legs[3].coulomb.theta = -1; }, "manipulator.leg[4].coulomb.theta", "-1",
-                ">= 0"},
-        Refusal{"smoothing", [](Machine& m) { m.legs[3].coulomb.smoothing_speed = 0; },
-                "manipulator.leg[4].coulomb.smoothing_speed", "0", "> 0"},
-        Refusal{"span", [](Machine& m) { m.legs[4].base_point.x() = 40; }, "manipulator.leg[1]",
-                "l + s of legs 1 and 5 together 5.", "by which their base and platform distances differ"},
-        Refusal{"millimetres", [](Machine& m) { m.legs[4].base_point.x() = 1300; }, "manipulator.leg[1].base_point",
-                "l + s of legs 1 and 5 together 5.", "did you mean mm? 1"}),
-    nameOf);
+const Refusal refusals[] = {
+    {"gravity", [](auto& m) { m.gravity.z() = nan; }, "gravity", "nan", "finite numbers"},
+    {"mass_zero", [](auto& m) { m.platform.mass = 0; }, "platform.mass", "0", "> 0"},
+    {"mass_nan", [](auto& m) { m.platform.mass = nan; }, "platform.mass", "nan", "finite"},
+    {"mass_inf", [](auto& m) { m.platform.mass = inf; }, "platform.mass", "inf", "finite"},
+    {"centre", [](auto& m) { m.platform.center_of_mass.x() = inf; }, "platform.center_of_mass", "inf",
+     "finite numbers"},
+    {"inertia_nan", [](auto& m) { m.platform.inertia(1, 2) = nan; }, "platform.inertia", "non-finite",
+     "finite numbers"},
+    {"asymmetric", [](auto& m) { m.platform.inertia(0, 1) = 1; }, "platform.inertia", "not symmetric",
+     "a symmetric tensor"},
+    {"indefinite", [](auto& m) { m.platform.inertia(0, 0) = -1; }, "platform.inertia", "principal moments [-1, 810",
+     "all principal moments > 0"},
+    {"off_diagonal", [](auto& m) { m.platform.inertia(0, 1) = m.platform.inertia(1, 0) = 900; }, "platform.inertia",
+     "principal moments [-", "all principal moments > 0"},
+    {"triangle", [](auto& m) { m.platform.inertia(2, 2) = 1610.1; }, "platform.inertia", "[800, 810, 1610.1]",
+     "<= the sum of the others, 1610"},
+    {"base_point", [](auto& m) { m.legs[0].base_point.x() = nan; }, "leg[1].base_point", "nan", "finite numbers"},
+    {"axis_zero", [](auto& m) { m.legs[5].base_axis.setZero(); }, "leg[6].base_axis", "[0, 0, 0]", "not zero"},
+    {"axis_nan", [](auto& m) { m.legs[5].base_axis.y() = nan; }, "leg[6].base_axis", "nan", "finite numbers"},
+    {"platform_point", [](auto& m) { m.legs[2].platform_point.z() = -inf; }, "leg[3].platform_point", "-inf",
+     "finite numbers"},
+    {"length", [](auto& m) { m.legs[1].proximal.length = 0; }, "leg[2].proximal.length", "0", "> 0"},
+    {"link_mass", [](auto& m) { m.legs[1].distal.mass = -2; }, "leg[2].distal.mass", "-2", ">= 0"},
+    {"link_without_mass", [](auto& m) { m.legs[1].distal.mass = 0; }, "leg[2].distal.inertia", "0.015]",
+     "zero, as the link's mass is 0"},
+    {"link_centre", [](auto& m) { m.legs[1].distal.center_of_mass = nan; }, "leg[2].distal.center_of_mass", "nan",
+     "finite"},
+    {"link_inertia", [](auto& m) { m.legs[4].proximal.inertia(0, 0) = 0; }, "leg[5].proximal.inertia",
+     "principal moments [0, ", "> 0"},
+    {"rod_not_round", [](auto& m) { m.legs[4].distal.inertia = Vector3d(4, 4.1, 0).asDiagonal(); },
+     "leg[5].distal.inertia", "[0, 4, 4.1]", "<= the sum of the others"},
+    {"rod_with_product",
+     [](auto& m) {
+       m.legs[4].distal.inertia(2, 2) = 0, m.legs[4].distal.inertia(0, 2) = m.legs[4].distal.inertia(2, 0) = 0.1;
+     },
+     "leg[5].distal.inertia", "principal moments [-", "of a thin rod"},
+    {"off_line_along", [](auto& m) { m.legs[1].distal.off_line.z() = 0.1; }, "leg[2].distal.center_of_mass", "0.1",
+     "across the link's line"},
+    {"off_line_nan", [](auto& m) { m.legs[1].distal.off_line.x() = nan; }, "leg[2].distal.center_of_mass", "nan",
+     "finite"},
+    {"rotor_negative", [](auto& m) { m.legs[3].rotor_inertia.phi = -1; }, "leg[4].rotor_inertia.phi", "-1", ">= 0"},
+    {"rotor_nan", [](auto& m) { m.legs[3].rotor_inertia.phi = nan; }, "leg[4].rotor_inertia.phi", "nan", "finite"},
+    {"rotor_undriven", [](auto& m) { m.legs[3].rotor_inertia.theta = 2; }, "leg[4].rotor_inertia.theta", "2",
+     "no motor drives theta"},
+    {"rotor_elsewhere", [](auto& m) { m.legs[3].rotor_inertia.d = 2; }, "leg[4].rotor_inertia.d", "2",
+     "no motor drives d"},
+    {"spin", [](auto& m) { m.legs[3].spins = true; }, "leg[4].spin", "URS", "held"},
+    {"friction_actuated", [](auto& m) { m.legs[3].friction.phi = -1; }, "leg[4].friction.phi", "-1", ">= 0"},
+    {"friction_universal", [](auto& m) { m.legs[3].friction.psi = nan; }, "leg[4].friction.psi", "nan", "finite"},
+    {"friction_knee", [](auto& m) { m.legs[3].friction.theta = -1e-300; }, "leg[4].friction.theta", "-1e-300", ">= 0"},
+    {"coulomb", [](auto& m) { m.legs[3].coulomb.theta = -1; }, "leg[4].coulomb.theta", "-1", ">= 0"},
+    {"smoothing", [](auto& m) { m.legs[3].coulomb.smoothing_speed = 0; }, "leg[4].coulomb.smoothing_speed", "0", "> 0"},
+    {"span", [](auto& m) { m.legs[4].base_point.x() = 40; }, "leg[1]", "l + s of legs 1 and 5 together 5.",
+     "by which their base and platform distances differ"},
+    {"millimetres", [](auto& m) { m.legs[4].base_point.x() = 1300; }, "leg[1].base_point",
+     "l + s of legs 1 and 5 together 5.", "did you mean mm? 1"},
+};
+INSTANTIATE_TEST_SUITE_P(Machines, RefusedManipulator, testing::ValuesIn(refusals),
+                         [](const auto& row) { return std::string(row.param.name); });
 
 TEST(Manipulator, keepsWhatItWasGiven) {
   Machine machine = good();

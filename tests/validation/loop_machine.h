@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -72,6 +74,16 @@ ValidationResult judgeEfforts(const Machine& machine, const Change& change) {
   std::vector<MotorEfforts> efforts = machine.efforts();
   for (std::size_t i = 0; i < efforts.size(); ++i) change(i, efforts[i]);
   return machine.judge(efforts);
+}
+
+/// Expects that a cause is named, of this kind, and of this term if one is given.
+inline NamedCause named(const ValidationResult& result, CauseKind kind, const std::string& term = "any") {
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  EXPECT_TRUE(result.cause) << result.cause_words.cause;
+  const NamedCause found = result.cause.value_or(NamedCause{});
+  EXPECT_EQ(found.kind, kind) << result.cause_words.cause;
+  EXPECT_TRUE(term == "any" || found.term == term) << found.term << ": " << result.cause_words.cause;
+  return found;
 }
 
 /// The file's tree as a machine of its own, with its closures cut and every hinge driven.

@@ -45,12 +45,8 @@ TEST(LoopMistake, velocitiesLeftOutAreNamedWithAPassiveRotor) {
     LoopWork work;
     efforts.push_back(solver.inverseDynamics(at, pose, work));
   }
-  const ValidationResult result = machine.judge(efforts);
-  ASSERT_EQ(result.verdict, Verdict::fail);
-  ASSERT_TRUE(result.cause) << result.cause_words.cause;
-  EXPECT_EQ(result.cause->kind, CauseKind::missing_term);
-  EXPECT_EQ(result.cause->term, "coriolis");
-  EXPECT_EQ(result.cause->body, "all");
+  const NamedCause result = named(machine.judge(efforts), CauseKind::missing_term, "coriolis");
+  EXPECT_EQ(result.body, "all");
 }
 
 TEST(LoopMistake, springsMeasuredFromZeroAreNamed) {
@@ -78,12 +74,8 @@ TEST(LoopMistake, weightsOfBodiesOfOneMassAreNamedTogether) {
   for (MechanismBody& body : without.bodies)
     if (body.mass == least) body.weightless = true, ++rods;
   ASSERT_GE(rods, 2u);
-  const ValidationResult result = machine.judge(machine.efforts(without));
-  ASSERT_TRUE(result.cause) << result.cause_words.cause;
-  EXPECT_EQ(result.cause->kind, CauseKind::missing_term);
-  EXPECT_EQ(result.cause->term, "gravity");
-  EXPECT_EQ(static_cast<std::size_t>(std::count(result.cause->body.begin(), result.cause->body.end(), ',')) + 1, rods)
-      << result.cause->body;
+  const NamedCause result = named(machine.judge(machine.efforts(without)), CauseKind::missing_term, "gravity");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(result.body.begin(), result.body.end(), ',')) + 1, rods) << result.body;
 }
 
 TEST(LoopMistake, transmissionOfTheStartIsNamed) {
@@ -94,10 +86,7 @@ TEST(LoopMistake, transmissionOfTheStartIsNamed) {
   open.forces(0, true, N_0);
   std::vector<MotorEfforts> efforts;
   for (const double t : machine.instants()) efforts.push_back(N_0.transpose() * open.forces(t, true, N));
-  const ValidationResult result = machine.judge(efforts);
-  ASSERT_TRUE(result.cause) << result.cause_words.cause;
-  EXPECT_EQ(result.cause->kind, CauseKind::closure);
-  EXPECT_EQ(result.cause->term, "constant");
+  named(machine.judge(efforts), CauseKind::closure, "constant");
 }
 
 /// Coulomb friction by the rate's sign differs from the smoothed law near rest alone.
@@ -114,11 +103,9 @@ TEST(LoopMistake, frictionWithoutSmoothingIsNamed) {
       if (k == 0) efforts[i](k) += joint.friction * (sign - std::tanh(rate / joint.smoothing()));
     }
   }
-  const ValidationResult result = machine.judge(efforts);
-  ASSERT_TRUE(result.cause) << result.cause_words.cause;
-  EXPECT_EQ(result.cause->kind, CauseKind::parameter);
-  EXPECT_EQ(result.cause->joint, machine.mechanism().motor(0).name);
-  EXPECT_EQ(result.cause->parameter, "joint." + result.cause->joint + ".smoothing_speed");
+  const NamedCause result = named(machine.judge(efforts), CauseKind::parameter);
+  EXPECT_EQ(result.joint, machine.mechanism().motor(0).name);
+  EXPECT_EQ(result.parameter, "joint." + result.joint + ".smoothing_speed");
 }
 
 /// 2 omega x v of each rod in its cylinder; the plate's own acceleration is right.
@@ -205,13 +192,9 @@ TEST(LoopMistake, everyUnitOfColumnsIsNamed) {
   const Machine machine("fourbar");
   for (const double unit : {9.80665, 0.0980665, 1.3558179483314004, 0.1129848290276167, 0.00706155181422604})
     for (const double factor : {unit, 1 / unit}) {
-      const ValidationResult result = judgeEfforts(machine, [&](std::size_t, auto& tau) { tau *= factor; });
-      ASSERT_TRUE(result.cause) << factor << result.cause_words.cause;
-      EXPECT_EQ(result.cause->kind, CauseKind::units) << factor;
+      named(judgeEfforts(machine, [&](std::size_t, auto& tau) { tau *= factor; }), CauseKind::units);
     }
-  const ValidationResult other = judgeEfforts(machine, [](std::size_t, auto& tau) { tau *= 10.21; });
-  ASSERT_TRUE(other.cause) << other.cause_words.cause;
-  EXPECT_EQ(other.cause->kind, CauseKind::scale);
+  named(judgeEfforts(machine, [](std::size_t, auto& tau) { tau *= 10.21; }), CauseKind::scale);
 }
 
 TEST(LoopMistake, significantDigitsOfASolverAreNamed) {
@@ -228,16 +211,14 @@ TEST(LoopMistake, significantDigitsOfASolverAreNamed) {
 
 TEST(LoopMistake, oneOffsetOfSeveralMotorsHasItsValue) {
   const Machine machine("ankle");
-  const ValidationResult equal = judgeEfforts(machine, [](std::size_t, auto& tau) { tau.array() += 0.2; });
-  ASSERT_TRUE(equal.cause) << equal.cause_words.cause;
-  EXPECT_EQ(equal.cause->kind, CauseKind::offset);
-  EXPECT_NEAR(equal.cause->found.value_or(0), 0.2, 1e-9);
-  EXPECT_EQ(equal.cause->expected.value_or(1), 0);
-  EXPECT_EQ(equal.cause->unit, "N m");
-  const ValidationResult apart = judgeEfforts(machine, [](std::size_t, auto& tau) { tau(0) += 0.2, tau(1) += 0.3; });
-  ASSERT_TRUE(apart.cause) << apart.cause_words.cause;
-  EXPECT_EQ(apart.cause->kind, CauseKind::offset);
-  EXPECT_FALSE(apart.cause->found);
+  const NamedCause equal =
+      named(judgeEfforts(machine, [](std::size_t, auto& tau) { tau.array() += 0.2; }), CauseKind::offset);
+  EXPECT_NEAR(equal.found.value_or(0), 0.2, 1e-9);
+  EXPECT_EQ(equal.expected.value_or(1), 0);
+  EXPECT_EQ(equal.unit, "N m");
+  const NamedCause apart =
+      named(judgeEfforts(machine, [](std::size_t, auto& tau) { tau(0) += 0.2, tau(1) += 0.3; }), CauseKind::offset);
+  EXPECT_FALSE(apart.found);
 }
 
 /// What is left out of one joint is told by the number that it has.
@@ -278,13 +259,13 @@ TEST(LoopMistake, closuresHaveNoNumbersAndOneMotorIsAll) {
   for (const NamedCause& each : all)
     for (const MechanismJoint& joint : joints)
       EXPECT_FALSE(joint.closure && each.joint == joint.name) << each.parameter;
-  const ValidationResult window = judgeEfforts(machine, [](std::size_t i, auto& tau) {
-    if (i > 20 && i < 30) tau(0) += 0.1 * static_cast<double>(i % 4 + 1);
-  });
-  ASSERT_TRUE(window.cause) << window.cause_words.cause;
-  EXPECT_EQ(window.cause->kind, CauseKind::window);
-  EXPECT_EQ(window.cause->body, "all");
-  EXPECT_EQ(window.cause->motor, 0);
+  const NamedCause window = named(judgeEfforts(machine,
+                                               [](std::size_t i, auto& tau) {
+                                                 if (i > 20 && i < 30) tau(0) += 0.1 * static_cast<double>(i % 4 + 1);
+                                               }),
+                                  CauseKind::window);
+  EXPECT_EQ(window.body, "all");
+  EXPECT_EQ(window.motor, 0);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <random>
 
 #include "tests/validation/loop_machine.h"
@@ -63,28 +62,20 @@ TEST_P(MechanismCause, NamesTwoMistakesTogether) {
 }
 
 TEST_P(MechanismCause, NamesFactorSignAndOffset) {
-  const ValidationResult scaled = judgeEfforts(machine, [](std::size_t, auto& tau) { tau *= 1.01; });
-  ASSERT_TRUE(scaled.cause) << scaled.cause_words.cause;
-  EXPECT_EQ(scaled.cause->kind, CauseKind::scale);
-  EXPECT_NEAR(scaled.cause->found.value_or(0), 1.01, 1e-9);
-  const ValidationResult milli = judgeEfforts(machine, [](std::size_t, auto& tau) { tau *= 1000; });
-  ASSERT_TRUE(milli.cause) << milli.cause_words.cause;
-  EXPECT_EQ(milli.cause->kind, CauseKind::units);
-  const ValidationResult negative = judgeEfforts(machine, [](std::size_t, auto& tau) { tau(0) *= -1; });
-  ASSERT_TRUE(negative.cause) << negative.cause_words.cause;
-  EXPECT_EQ(negative.cause->kind, CauseKind::sign);
-  const ValidationResult shifted = judgeEfforts(machine, [](std::size_t, auto& tau) { tau(0) += 0.1; });
-  ASSERT_TRUE(shifted.cause) << shifted.cause_words.cause;
-  EXPECT_EQ(shifted.cause->kind, CauseKind::offset);
-  EXPECT_NEAR(shifted.cause->found.value_or(0), 0.1, 1e-9);
+  const NamedCause scaled = named(judgeEfforts(machine, [](std::size_t, auto& tau) { tau *= 1.01; }), CauseKind::scale);
+  EXPECT_NEAR(scaled.found.value_or(0), 1.01, 1e-9);
+  named(judgeEfforts(machine, [](std::size_t, auto& tau) { tau *= 1000; }), CauseKind::units);
+  named(judgeEfforts(machine, [](std::size_t, auto& tau) { tau(0) *= -1; }), CauseKind::sign);
+  const NamedCause shifted =
+      named(judgeEfforts(machine, [](std::size_t, auto& tau) { tau(0) += 0.1; }), CauseKind::offset);
+  EXPECT_NEAR(shifted.found.value_or(0), 0.1, 1e-9);
 }
 
 TEST_P(MechanismCause, NamesOrderDelayDigitsAndWindow) {
   if (machine.mechanism().motorCount() > 1) {
-    const ValidationResult swapped = judgeEfforts(machine, [](std::size_t, auto& tau) { std::swap(tau(0), tau(1)); });
-    ASSERT_TRUE(swapped.cause) << swapped.cause_words.cause;
-    EXPECT_EQ(swapped.cause->kind, CauseKind::order);
-    EXPECT_TRUE(swapped.cause->signs.empty());
+    const NamedCause swapped =
+        named(judgeEfforts(machine, [](std::size_t, auto& tau) { std::swap(tau(0), tau(1)); }), CauseKind::order);
+    EXPECT_TRUE(swapped.signs.empty());
     const ValidationResult turned = judgeEfforts(machine, [](std::size_t, auto& tau) {
       std::swap(tau(0), tau(1));
       tau(1) = -tau(1);
@@ -95,19 +86,16 @@ TEST_P(MechanismCause, NamesOrderDelayDigitsAndWindow) {
     EXPECT_EQ(turned.cause->signs[1], -1);
     EXPECT_THAT(turned.cause_words.cause, HasSubstr("column 2 has the wrong sign"));
   }
-  const ValidationResult late = machine.judge(machine.efforts(machine.parameters(), 0.004));
-  ASSERT_TRUE(late.cause) << late.cause_words.cause;
-  EXPECT_EQ(late.cause->kind, CauseKind::delay);
-  EXPECT_NEAR(late.cause->found.value_or(0), 0.004, 1e-8);
-  const ValidationResult single = judgeEfforts(
-      machine, [](std::size_t, auto& tau) { tau = tau.template cast<float>().template cast<double>().eval(); });
-  ASSERT_TRUE(single.cause) << single.cause_words.cause;
-  EXPECT_EQ(single.cause->kind, CauseKind::digits);
-  const ValidationResult window = judgeEfforts(machine, [](std::size_t i, auto& tau) {
-    if (i > 20 && i < 30) tau(0) += 0.1 * static_cast<double>(i % 4 + 1);
-  });
-  ASSERT_TRUE(window.cause) << window.cause_words.cause;
-  EXPECT_EQ(window.cause->kind, CauseKind::window);
+  const NamedCause late = named(machine.judge(machine.efforts(machine.parameters(), 0.004)), CauseKind::delay);
+  EXPECT_NEAR(late.found.value_or(0), 0.004, 1e-8);
+  named(judgeEfforts(machine,
+                     [](std::size_t, auto& tau) { tau = tau.template cast<float>().template cast<double>().eval(); }),
+        CauseKind::digits);
+  named(judgeEfforts(machine,
+                     [](std::size_t i, auto& tau) {
+                       if (i > 20 && i < 30) tau(0) += 0.1 * static_cast<double>(i % 4 + 1);
+                     }),
+        CauseKind::window);
 }
 
 TEST_P(MechanismCause, NamesNumbersOfTheMachine) {
@@ -129,19 +117,15 @@ TEST_P(MechanismCause, NamesNumbersOfTheMachine) {
 }
 
 TEST_P(MechanismCause, NamesMissingTerms) {
-  const ValidationResult weightless = judgeChanged(machine, [](auto& p) { p.gravity.setZero(); });
-  ASSERT_TRUE(weightless.cause) << weightless.cause_words.cause;
-  EXPECT_EQ(weightless.cause->kind, CauseKind::missing_term);
-  EXPECT_EQ(weightless.cause->term, "gravity");
+  named(judgeChanged(machine, [](auto& p) { p.gravity.setZero(); }), CauseKind::missing_term, "gravity");
   const std::size_t body = lastBody(machine.mechanism());
-  const ValidationResult without = judgeChanged(machine, [&](auto& p) {
-    p.bodies[body].mass = 0;
-    p.bodies[body].inertia.setZero();
-  });
-  ASSERT_TRUE(without.cause) << without.cause_words.cause;
-  EXPECT_EQ(without.cause->kind, CauseKind::missing_term);
-  EXPECT_EQ(without.cause->term, "inertia");
-  EXPECT_EQ(without.cause->body, machine.mechanism().bodies()[body].name);
+  const NamedCause without = named(judgeChanged(machine,
+                                                [&](auto& p) {
+                                                  p.bodies[body].mass = 0;
+                                                  p.bodies[body].inertia.setZero();
+                                                }),
+                                   CauseKind::missing_term, "inertia");
+  EXPECT_EQ(without.body, machine.mechanism().bodies()[body].name);
 }
 
 /// The right efforts, and for each body what `of` puts in place of its moment, from the tensor of the file's pose.
@@ -166,19 +150,13 @@ std::vector<MotorEfforts> withMoments(const Machine& machine, const Of& of) {
 
 TEST_P(MechanismCause, NamesFrameAndGyroscopicMoment) {
   if (std::string(GetParam()) != "ankle") return;  // the ankle's bodies turn about several axes
-  const ValidationResult still = machine.judge(
-      withMoments(machine, [](const Matrix3d& I_0, const Matrix3d&, const Vector3d& omega, const Vector3d& alpha) {
-        return Vector3d(I_0 * alpha + omega.cross(I_0 * omega));
-      }));
-  ASSERT_TRUE(still.cause) << still.cause_words.cause;
-  EXPECT_EQ(still.cause->kind, CauseKind::frame);
-  EXPECT_EQ(still.cause->term, "orientation");
-  const ValidationResult without =
-      machine.judge(withMoments(machine, [](const Matrix3d&, const Matrix3d& I, const Vector3d&,
-                                            const Vector3d& alpha) { return Vector3d(I * alpha); }));
-  ASSERT_TRUE(without.cause) << without.cause_words.cause;
-  EXPECT_EQ(without.cause->kind, CauseKind::missing_term);
-  EXPECT_EQ(without.cause->term, "gyroscopic");
+  named(machine.judge(withMoments(
+            machine, [](const Matrix3d& I_0, const Matrix3d&, const Vector3d& omega,
+                        const Vector3d& alpha) { return Vector3d(I_0 * alpha + omega.cross(I_0 * omega)); })),
+        CauseKind::frame, "orientation");
+  named(machine.judge(withMoments(machine, [](const Matrix3d&, const Matrix3d& I, const Vector3d&,
+                                              const Vector3d& alpha) { return Vector3d(I * alpha); })),
+        CauseKind::missing_term, "gyroscopic");
 }
 
 TEST_P(MechanismCause, NamesFrictionOfPassiveJoints) {
@@ -189,13 +167,12 @@ TEST_P(MechanismCause, NamesFrictionOfPassiveJoints) {
   for (std::size_t j = 0; j < joints.size(); ++j)
     any = any || (isPassive(j) && (joints[j].damping != 0 || joints[j].friction != 0));
   if (!any) return;  // nothing rubs at its passive joints
-  const ValidationResult result = judgeChanged(machine, [&](auto& p) {
-    for (std::size_t j = 0; j < joints.size(); ++j)
-      if (isPassive(j)) p.joints[j].damping = p.joints[j].friction = 0;
-  });
-  ASSERT_TRUE(result.cause) << result.cause_words.cause;
-  EXPECT_EQ(result.cause->kind, CauseKind::missing_term);
-  EXPECT_EQ(result.cause->term, "friction");
+  named(judgeChanged(machine,
+                     [&](auto& p) {
+                       for (std::size_t j = 0; j < joints.size(); ++j)
+                         if (isPassive(j)) p.joints[j].damping = p.joints[j].friction = 0;
+                     }),
+        CauseKind::missing_term, "friction");
 }
 
 /// One of them, or two, would be a wrong name.
@@ -227,10 +204,7 @@ TEST_P(MechanismCause, NamesOpenLoopsAndClosuresBias) {
   if (!open.isPossible()) return;  // its tree has other joints than hinges
   const Eigen::Index n = machine.efforts().front().size();
   const auto expect = [&](const std::vector<MotorEfforts>& efforts, const char* term) {
-    const ValidationResult result = machine.judge(efforts);
-    ASSERT_TRUE(result.cause) << term << ": " << result.cause_words.cause;
-    EXPECT_EQ(result.cause->kind, CauseKind::closure) << result.cause_words.cause;
-    EXPECT_EQ(result.cause->term, term);
+    named(machine.judge(efforts), CauseKind::closure, term);
   };
   expect(fromTree(machine, open, true, [&](const auto& forces, const auto&) { return forces.head(n).eval(); }), "open");
   expect(

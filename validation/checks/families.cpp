@@ -1,7 +1,6 @@
 #include "validation/checks/families.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "base/deadline.h"

@@ -89,6 +89,21 @@ double largestEffort(const Scenario& scenario) {
 
 }  // namespace
 
+void takeLargest(const Check& check, bool& any, EffortDeviation& out) {
+  if (!std::isnan(check.missed) && !(out.seen <= check.missed)) out.seen = check.missed;
+  if (any && !exceeds(check.largest.value, out.largest)) return;
+  out.largest = check.largest.value;
+  out.t = check.largest.t;
+  out.where = check.largest.where;
+  any = true;
+}
+
+void takeBetween(const std::vector<Check>& checks, EffortDeviation& out) {
+  // Two numbers of one check: what torque.between sees, it sees between the samples.
+  if (const Check* between = findCheck(checks, "torque.between"); between != nullptr && std::isfinite(between->gap))
+    out.seen = between->missed, out.seen_for = between->gap;
+}
+
 std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const std::vector<Check>& checks,
                                                const OddOne& odd_one) {
   const Units& units = evidence.units();
@@ -102,17 +117,10 @@ std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const s
       out.from_without = larger(out.from_without, check.largest.value);
       continue;
     }
-    if (!std::isnan(check.missed) && !(out.seen <= check.missed)) out.seen = check.missed;
-    if (any && !exceeds(check.largest.value, out.largest)) continue;
-    out.largest = check.largest.value;
-    out.t = check.largest.t;
-    out.where = check.largest.where;
-    any = true;
+    takeLargest(check, any, out);
   }
   if (evidence.external == nullptr) out.seen_for = widestGap(evidence);
-  // Two numbers of one check: what torque.between sees, it sees between the samples.
-  if (const Check* between = findCheck(checks, "torque.between"); between != nullptr && std::isfinite(between->gap))
-    out.seen = between->missed, out.seen_for = between->gap;
+  takeBetween(checks, out);
   if (!any || evidence.samples.empty() || !evidence.answered()) return std::nullopt;
   out.unit = units.efforts.unit;
   out.largest_effort = largestEffort(*evidence.scenario) * units.effort();
@@ -122,17 +130,20 @@ std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const s
   return out;
 }
 
-void requireTellingTolerance(const Scenario& scenario) {
-  if (!scenario.tolerance || scenario.tolerance->any) return;
-  const double largest = largestEffort(scenario);
-  const double allowed = scenario.tolerance->relative * largest + scenario.tolerance->absolute;
-  if (!(largest > 0) || allowed < largest) return;
-  const char* unit = effortsOf(*scenario.manipulator).unit;
-  const std::string noun = effortNoun(scenario.manipulator->motors());
+void requireTellingTolerance(const EffortTolerance& tolerance, const std::string& scenario, const std::string& noun,
+                             const std::string& unit, double largest) {
+  const double allowed = tolerance.relative * largest + tolerance.absolute;
+  if (tolerance.any || !(largest > 0) || allowed < largest) return;
   throw ScenarioError(
       fmt::format("{}: error: at a tolerance of {:.6g} {} {}s of zero would pass, because the largest {} of the "
                   "motion is {:.6g} {}; expected a smaller one, or --any-tolerance to accept it",
-                  scenario.name, allowed, unit, noun, noun, largest, unit));
+                  scenario, allowed, unit, noun, noun, largest, unit));
+}
+
+void requireTellingTolerance(const Scenario& scenario) {
+  if (scenario.tolerance && !scenario.tolerance->any)
+    requireTellingTolerance(*scenario.tolerance, scenario.name, effortNoun(scenario.manipulator->motors()),
+                            effortsOf(*scenario.manipulator).unit, largestEffort(scenario));
 }
 
 void judgeByTolerance(const std::optional<EffortTolerance>& given, const std::vector<AcceptanceLimit>& acceptance,

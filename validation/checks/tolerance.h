@@ -23,6 +23,10 @@ void judgeByUser(double limit, const std::string& whose, Check& check);
 std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const std::vector<Check>& checks,
                                                const OddOne& odd_one = {});
 
+/// Takes a check's largest deviation, unless one of `any` before it was as large, and what the check sees.
+void takeLargest(const Check& check, bool& any, EffortDeviation& out);
+void takeBetween(const std::vector<Check>& checks, EffortDeviation& out);
+
 /// Applies the user's tolerance, if there is one, to the largest value of each check of torques. The effect of
 /// such errors on accelerations and replays is reported but not judged, unless [acceptance] names it. `between` is the
 /// possible error between the given instants, in SI, or infinite if the torques do not cover the motion. If it exceeds
@@ -36,5 +40,8 @@ void conclude(const Scenario& scenario, const SubjectHas& has, double between, V
 
 /// Throws ScenarioError if zero torques would pass at the scenario's tolerance, unless it is `any`.
 void requireTellingTolerance(const Scenario& scenario);
+/// The same for a scenario of this name. `noun` is what its efforts are called, `largest` the largest of the motion.
+void requireTellingTolerance(const EffortTolerance& tolerance, const std::string& scenario, const std::string& noun,
+                             const std::string& unit, double largest);
 
 }  // namespace ursula

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "nocsolver/errors.h"
 #include "simbody/simbody_loop.h"

@@ -1,10 +1,7 @@
 #include "validation/mechanism/mechanism_evidence.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/dense.h"
 #include "model/instants.h"

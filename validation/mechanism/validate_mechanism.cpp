@@ -90,19 +90,11 @@ OddOne oddOneOf(const MechanismEvidence& evidence, const std::vector<Check>& che
 std::optional<EffortDeviation> deviationOf(const MechanismEvidence& evidence, const std::vector<Check>& checks) {
   EffortDeviation out;
   bool any = false;
-  for (const Check& check : checks) {
-    if (!isOf(check, "torque") || std::isnan(check.largest.value)) continue;
-    if (!std::isnan(check.missed) && !(out.seen <= check.missed)) out.seen = check.missed;
-    if (any && !(check.largest.value > out.largest)) continue;
-    out.largest = check.largest.value;
-    out.t = check.largest.t;
-    out.where = check.largest.where;
-    any = true;
-  }
+  for (const Check& check : checks)
+    if (isOf(check, "torque") && !std::isnan(check.largest.value)) takeLargest(check, any, out);
   if (!any) return std::nullopt;
   out.seen_for = evidence.cover.widest_gap;
-  if (const Check* between = findCheck(checks, "torque.between"); between != nullptr && std::isfinite(between->gap))
-    out.seen = between->missed, out.seen_for = between->gap;
+  takeBetween(checks, out);
   out.unit = evidence.unit;
   out.largest_effort = evidence.largest;
   out.drift = std::nan("");
@@ -222,17 +214,6 @@ MechanismSubject asAsked(MechanismSubject subject, const MechanismOptions& optio
   return subject;
 }
 
-/// Zeros must not pass.
-void requireTelling(const MechanismScenario& scenario, double largest, const std::string& unit) {
-  if (!scenario.tolerance || scenario.tolerance->any) return;
-  const double allowed = scenario.tolerance->relative * largest + scenario.tolerance->absolute;
-  if (!(largest > 0) || allowed < largest) return;
-  throw ScenarioError(
-      fmt::format("{}: error: at a tolerance of {:.6g} {} efforts of zero would pass, because the largest "
-                  "effort of the motion is {:.6g} {}; expected a smaller one, or --any-tolerance to accept it",
-                  scenario.name, allowed, unit, largest, unit));
-}
-
 }  // namespace
 
 MechanismAlong::MechanismAlong(const MechanismScenario& scenario) {
@@ -270,7 +251,8 @@ ValidationResult validateMechanism(const MechanismScenario& scenario, const Mech
   } catch (const OutOfTime& over) {
     evidence.out_of_time = over.what();
   }
-  requireTelling(scenario, evidence.largest, evidence.unit);
+  if (scenario.tolerance)
+    requireTellingTolerance(*scenario.tolerance, scenario.name, "effort", evidence.unit, evidence.largest);
   deadline.remove();
   result.checks = judgeMechanism(evidence, subject);
   if (partModelReading() != nullptr) result.checks.push_back(partModelReading()(scenario));
