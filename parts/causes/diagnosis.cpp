@@ -173,7 +173,8 @@ Explanation ranked(const std::vector<Hypothesis>& fitted, const Hypothesis& firs
   }
   Explanation out{std::move(text), {}, {}, claim};
   for (const Hypothesis& one : best) {
-    if (one.text != first.text) out.text += fmt::format(". Next: {}, {:.3g} %", one.text, 100 * one.explained());
+    const bool is_said = out.text.find(one.text) != std::string::npos;  // as the first or as good as it
+    if (!is_said) out.text += fmt::format(". Next: {}, {:.3g} %", one.text, 100 * one.explained());
     if (!one.named) continue;
     out.others.push_back(*one.named);
     out.others.back().explained = 1 - one.unexplained * one.unexplained;

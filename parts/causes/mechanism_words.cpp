@@ -38,7 +38,7 @@ std::string termWords(const std::string& term) {
                                                               {"inertia", "the inertia"},
                                                               {"friction", "the friction"},
                                                               {"rotor_inertia", "the armature"},
-                                                              {"springs", "the springs' forces"},
+                                                              {"springs", "the springs' force"},
                                                               {"orientation", "the tensor of inertia"},
                                                               {"angular_velocity", "the angular velocity"},
                                                               {"angular_acceleration", "the angular acceleration"},

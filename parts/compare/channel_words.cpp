@@ -14,7 +14,9 @@ struct Quantity {
 
 /// Quantities of a motor or leg, which a number follows, and of the platform, which an axis may follow.
 constexpr Quantity quantities[] = {Quantity{"tau", "effort of motor"},
+                                   {"noc_tau", "NOC's effort of motor"},
                                    {"simbody_tau", "Simbody's effort of motor"},
+                                   {"error_tau", "largest deviation of an effort"},
                                    {"limit_tau", "limit of the effort of motor"},
                                    {"phi", "angle φ of leg"},
                                    {"psi", "angle ψ of leg"},
@@ -87,7 +89,7 @@ std::string channelWords(const std::string& channel) {
 }
 
 bool isDerived(const std::string& channel) {
-  static const std::regex form("(error|limit|closure|simbody)_.*");
+  static const std::regex form("(error|limit|closure|noc|simbody)_.*");
   return std::regex_match(channel, form);
 }
 

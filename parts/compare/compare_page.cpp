@@ -31,7 +31,6 @@ using report::Stroke;
 
 // These limits keep a page of a hundred channels below 3 MB. They bound the points in all.
 constexpr std::size_t buckets_in_all = 9000, fewest_buckets = 60, most_buckets = 400;
-constexpr std::size_t open_at_first = 3;
 
 /// The used share of a channel's tolerance; infinite for any deviation if the tolerance is 0.
 double shareOf(const ChannelComparison& channel) {
@@ -64,7 +63,7 @@ std::string shareText(const ChannelComparison& channel) {
     return fmt::format("is off by {} at t = {:.6g} s, {} of the largest; its tolerance is {}",
                        quantity(channel.max_error, unitOf(channel.name)), channel.max_at,
                        sizeText(channel.max_error / channel.scale), quantity(channel.tolerance, unitOf(channel.name)));
-  return fmt::format("is at {} of its tolerance", report::plainNumber(share, 2));
+  return share == 0 ? "is the same" : "is at " + sizeText(share) + " of its tolerance";
 }
 
 Plot timePlot(const ChannelCurves& curves, const std::string& title, const std::string& y_label) {
@@ -92,7 +91,7 @@ HtmlValue channelRow(const ChannelComparison& c, std::size_t index) {
           {"channel", channelWords(c.name)},
           {"column", c.name},
           {"largest", quantity(c.max_error, unit)},
-          {"at", quantity(c.max_at, "s")},
+          {"at", fmt::format("{:.4g}\u00a0s", c.max_at)},
           {"rms", quantity(c.rms_error, unit)},
           {"last", quantity(c.final_error, unit)},
           {"tolerance", quantity(c.tolerance, unit)}};
@@ -102,7 +101,7 @@ HtmlValue channelGroup(const ChannelComparison& channel, const ChannelCharts& ch
                        std::size_t place) {
   return {{"verdict", name(channel.verdict)},
           {"index", index},
-          {"open", place < open_at_first || channel.verdict == Verdict::fail},
+          {"open", place == 0 || channel.verdict == Verdict::fail},
           {"badge", report::verdictBadge(channel.verdict)},
           {"channel", channelWords(channel.name)},
           {"column", channel.name},

@@ -104,7 +104,11 @@ Plot spectrumPlot(const IdentifyResult& result) {
 std::string tableOf(const std::vector<std::string>& heads, const std::vector<std::vector<std::string>>& rows,
                     std::size_t more = 0) {
   if (rows.empty()) return "";
-  const auto row = [](const std::vector<std::string>& cells) { return HtmlValue{{"cells", cells}}; };
+  const auto row = [&heads](const std::vector<std::string>& cells) {
+    std::vector<HtmlValue> further;
+    for (std::size_t k = 1; k < cells.size(); ++k) further.push_back({{"head", heads[k]}, {"text", cells[k]}});
+    return HtmlValue{{"first", cells[0]}, {"cells", further}};
+  };
   return rendered(identify_table_html,
                   {{"heads", heads}, {"rows", listOf(rows, row)}, {"more", more > 0 ? std::to_string(more) : ""}});
 }
@@ -148,9 +152,10 @@ std::string agreementTable(const IdentifyResult& result) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t k = 0; k < result.motors.size(); ++k) {
     const MotorAgreement& m = result.motors[k];
-    rows.push_back({fmt::format("{}", k + 1), quantity(m.effort, m.unit), quantity(m.deviation, m.unit),
-                    quantity(m.largest, m.unit), quantity(m.largest_at_s, "s"), quantity(1.96 * m.u_val, m.unit),
-                    fmt::format("{:.1f}\u00a0%", 100 * m.within), quantity(m.left, m.unit)});
+    rows.push_back({fmt::format("motor\u00a0{}", k + 1), quantity(m.effort, m.unit), quantity(m.deviation, m.unit),
+                    quantity(m.largest, m.unit), fmt::format("{:.4g}\u00a0s", m.largest_at_s),
+                    quantity(1.96 * m.u_val, m.unit), fmt::format("{:.1f}\u00a0%", 100 * m.within),
+                    quantity(m.left, m.unit)});
   }
   return tableOf({"Motor", "Measured, rms", "Off the model, rms", "Largest", "at", "Uncertainty, 95 %", "Within it",
                   "Off the fitted model"},
@@ -162,7 +167,7 @@ std::string motorsTable(const IdentifyResult& result) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t k = 0; k < result.motors.size(); ++k) {
     const MotorAgreement& m = result.motors[k];
-    rows.push_back({fmt::format("{}", k + 1), report::number(m.effort), report::number(m.deviation),
+    rows.push_back({fmt::format("motor\u00a0{}", k + 1), report::number(m.effort), report::number(m.deviation),
                     report::number(m.u_num), report::number(m.u_input), report::number(m.u_D), report::number(m.u_val),
                     fmt::format("{:.1f} %", 100 * m.within), report::number(m.left),
                     m.expected > 0 ? report::number(m.expected) : "–", m.unit});
@@ -191,8 +196,8 @@ std::string delayText(const IdentifyResult& result) {
   return std::abs(result.delay) < 1.96 * result.delay_uncertainty ? "none seen" : quantity(result.delay, "s");
 }
 
-std::string list(const std::vector<std::string>& items) {
-  return items.empty() ? "" : rendered(identify_list_html, {{"items", items}});
+std::string list(const std::vector<std::string>& items, bool columns) {
+  return items.empty() ? "" : rendered(identify_list_html, {{"items", items}, {"columns", columns}});
 }
 
 }  // namespace
@@ -223,12 +228,12 @@ std::string identifyPage(const IdentifyResult& result) {
         {"Periods", fmt::format("{}", result.periods), quantity(result.duration / result.periods, "s", 4) + " each"}};
   }
   page.sections = {{"causes", "What may be wrong", causesTable(result)},
-                   {"findings", "What the log shows", list(findings)},
+                   {"findings", "What the log shows", list(findings, false)},
                    {"efforts", "Measured against model", efforts},
                    {"errors", "Differences", errors},
                    {"parameters", "Numbers that the motion shows", numbersTable(result.numbers, false)},
                    {"combinations", "Combinations that it shows", numbersTable(result.combinations, true)},
-                   {"unseen", "What this motion cannot see", list(result.unseen)},
+                   {"unseen", "What this motion cannot see", list(result.unseen, true)},
                    {"spectrum", "Uncertainty and what the fit leaves", spectrum}};
   page.script = report::charts_script;
   page.footer = fmt::format("<p>ursula {}. Read as: {}</p>", escaped(result.version), escaped(result.read_as));

@@ -122,9 +122,10 @@ namespace {
 
 std::string causeWords(const MeasuredCause& cause) {
   if (cause.misread) return cause.what;
+  const std::string unit = cause.unit.empty() ? "" : " " + cause.unit;
   std::string out =
-      fmt::format("{} is {:.6g} ± {:.2g}{} instead of {:.6g}", cause.parameter.empty() ? cause.what : cause.parameter,
-                  cause.found, 1.96 * cause.uncertainty, cause.unit.empty() ? "" : " " + cause.unit, cause.expected);
+      fmt::format("{} is {:.6g} ± {:.2g}{} instead of {:.6g}{}", cause.parameter.empty() ? cause.what : cause.parameter,
+                  cause.found, 1.96 * cause.uncertainty, unit, cause.expected, unit);
   if (cause.tolerances != 0) out += fmt::format(", {:.3g} of its tolerances", std::abs(cause.tolerances));
   return cause.outside ? out + ", which no mass, inertia or friction can be" : out;
 }

@@ -79,9 +79,10 @@ Json listOf(const Items& items) {
 
 std::string causeLine(const MeasuredCause& cause) {
   if (cause.score == 0) return cause.what;
+  const std::string unit = cause.unit.empty() ? "" : " " + cause.unit;
   std::string out =
-      fmt::format("{} {:.6g} ± {:.2g} {} instead of {:.6g}", cause.parameter.empty() ? cause.what : cause.parameter,
-                  cause.found, 1.96 * cause.uncertainty, cause.unit, cause.expected);
+      fmt::format("{} {:.6g} ± {:.2g}{} instead of {:.6g}{}", cause.parameter.empty() ? cause.what : cause.parameter,
+                  cause.found, 1.96 * cause.uncertainty, unit, cause.expected, unit);
   if (cause.tolerances != 0) out += fmt::format(" ({:+.3g} tolerances)", cause.tolerances);
   return cause.outside ? out + ", outside of masses, inertias and friction" : out;
 }

@@ -18,14 +18,15 @@ constexpr double heading = 30;  // px
 constexpr int most_slices = 6;
 
 struct ShownValues {
-  std::string title;
+  std::string title, unit;
   std::vector<float> values;  ///< NaN means out of reach
   report::HeatScale scale;
 };
 
 /// Replaces the missing number of a singular pose by infinity, which has the last colour.
-ShownValues shown(const std::string& title, const DrawnMap& drawn, const std::vector<float>& values, bool log) {
-  ShownValues out{title, values, {values, log}};
+ShownValues shown(const std::string& title, const std::string& unit, const DrawnMap& drawn,
+                  const std::vector<float>& values, bool log) {
+  ShownValues out{title, unit, values, {values, log}};
   for (std::size_t k = 0; k < values.size(); ++k)
     if (std::isnan(values[k]) && !std::isnan(drawn.kappa[k])) out.values[k] = std::numeric_limits<float>::infinity();
   return out;
@@ -90,11 +91,11 @@ text { font: 12px sans-serif; fill: #333 } .title { font-size: 13px } .name { fo
 
 std::string mapPicture(const Scenario& scenario, const PoseGrid& grid, const DrawnMap& drawn) {
   const std::array<ShownValues, 3> all = {
-      {shown("condition number κ(B)", drawn, drawn.kappa, true),
-       shown(isTelescopic(scenario) ? "smallest distance from an end of a stroke, m"
-                                    : "smallest margin of the legs: 0 stretched, 1 far from it",
-             drawn, drawn.margin, false),
-       shown("largest static effort, " + drawn.effort_unit, drawn, drawn.effort, true)}};
+      {shown("condition number κ(B)", "", drawn, drawn.kappa, true),
+       isTelescopic(scenario)
+           ? shown("smallest distance from an end of a stroke", "m", drawn, drawn.margin, false)
+           : shown("smallest margin of the legs: 0 stretched, 1 far from it", "", drawn, drawn.margin, false),
+       shown("largest static effort", drawn.effort_unit, drawn, drawn.effort, true)}};
   const std::vector<int> rows = slices(grid);
   const std::vector<std::pair<double, double>> path = pathOver(scenario, grid);
   std::string out;
@@ -104,6 +105,7 @@ std::string mapPicture(const Scenario& scenario, const PoseGrid& grid, const Dra
     for (std::size_t k = 0; k < all.size(); ++k) {
       report::HeatMap map = sliceOf(grid, all[k], slice);
       map.path = path;
+      map.unit = all[k].unit;
       out += report::heatMapPanel(map, all[k].scale, report::heat_map_width * static_cast<double>(k), y);
     }
     y += report::heat_map_height;
@@ -112,10 +114,11 @@ std::string mapPicture(const Scenario& scenario, const PoseGrid& grid, const Dra
              "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\">\n{}<rect width=\"100%\" "
              "height=\"100%\" fill=\"#fff\"/>\n<text x=\"20\" y=\"24\" class=\"name\">{}</text>\n<rect x=\"{:.0f}\" "
              "y=\"12\" width=\"14\" height=\"14\" fill=\"{}\"/>\n<text x=\"{:.0f}\" y=\"24\">out of reach</text>\n"
-             "<path class=\"path\" d=\"M{:.0f} 19h24\"/><text x=\"{:.0f}\" y=\"24\">commanded path</text>\n",
+             "<path class=\"path\" d=\"M{:.0f} 19h24\"/><text x=\"{:.0f}\" y=\"24\">commanded path{}</text>\n",
              3 * report::heat_map_width, y, style, report::escaped(scenario.name), 3 * report::heat_map_width - 130,
-             report::heat_map_nothing, 3 * report::heat_map_width - 110, 3 * report::heat_map_width - 290,
-             3 * report::heat_map_width - 260) +
+             report::heat_map_nothing, 3 * report::heat_map_width - 110, 3 * report::heat_map_width - 330,
+             3 * report::heat_map_width - 300,
+             grid.varying().size() == 3 ? fmt::format(", at any {}", grid_axis_names[grid.varying()[2]]) : "") +
          out + "</svg>\n";
 }
 

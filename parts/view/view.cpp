@@ -70,6 +70,9 @@ Json loadJson(const Load* load) {
           {"point", numbers(load->point)}};
 }
 
+/// Units of a motor's coordinate and effort.
+Json unitsOf(bool slides) { return slides ? Json{"m", "N"} : Json{"rad", "N·m"}; }
+
 std::string page(const std::string& title, const std::string& sentence, const Json& data, bool legs) {
   report::Page out;
   out.kind = "Machine to move";
@@ -127,12 +130,13 @@ Json jointJson(const MechanismJoint& joint) {
 std::string viewHtml(const Scenario& scenario) {
   tryMotion(scenario);
   const Manipulator& machine = *scenario.manipulator;
-  Json legs = Json::array(), motors = Json::array(), names = Json::array(), sliders = Json::array();
+  Json legs = Json::array(), motors = Json::array(), names = Json::array(), units = Json::array(),
+       sliders = Json::array();
   for (int i = 0; i < machine.legCount(); ++i) legs.push_back(legJson(machine.leg(i)));
   for (const Motor& motor : machine.motors()) {
     motors.push_back({{"leg", motor.leg}, {"joint", motor.joint}, {"turns", !motor.slides()}});
-    names.push_back(fmt::format("leg {}, {} in {}", motor.leg + 1, nameOf(motor.coordinate),
-                                motor.slides() ? "m and N" : "rad and N·m"));
+    names.push_back(fmt::format("leg {}, {}", motor.leg + 1, nameOf(motor.coordinate)));
+    units.push_back(unitsOf(motor.slides()));
   }
   const PathJson along = pathOf(scenario);
   const Motion<double> start = scenario.trajectory->at(0);
@@ -146,6 +150,7 @@ std::string viewHtml(const Scenario& scenario) {
        {{"legs", legs},
         {"motors", motors},
         {"motor_names", names},
+        {"motor_units", units},
         {"gravity", numbers(machine.gravity())},
         {"platform", {{"mass", machine.platform().mass}, {"center", numbers(machine.platform().center_of_mass)}}},
         {"load", loadJson(scenario.load.get())},
@@ -159,7 +164,8 @@ std::string viewHtml(const Scenario& scenario) {
 std::string viewHtml(const MechanismScenario& scenario) {
   const Mechanism& mechanism = *scenario.mechanism;
   const MechanismAlong along(scenario);
-  Json bodies = Json::array(), joints = Json::array(), names = Json::array(), sliders = Json::array();
+  Json bodies = Json::array(), joints = Json::array(), names = Json::array(), units = Json::array(),
+       sliders = Json::array();
   for (const MechanismBody& body : mechanism.bodies()) bodies.push_back(bodyJson(body));
   for (const MechanismJoint& joint : mechanism.joints()) joints.push_back(jointJson(joint));
   for (std::size_t k = 0; k < mechanism.motorCount(); ++k) {
@@ -169,7 +175,8 @@ std::string viewHtml(const MechanismScenario& scenario) {
     sliders.push_back(slider(motor.name, motor.slides() ? "m" : "°",
                              unit * (std::isfinite(motor.lower) ? motor.lower : start - free),
                              unit * (std::isfinite(motor.upper) ? motor.upper : start + free)));
-    names.push_back(motor.name + (motor.slides() ? " in m and N" : " in rad and N·m"));
+    names.push_back(motor.name);
+    units.push_back(unitsOf(motor.slides()));
   }
   Json path = {{"t", Json::array()}, {"motors", Json::array()}, {"states", Json::array()}};
   LoopWork work;
@@ -197,6 +204,7 @@ std::string viewHtml(const MechanismScenario& scenario) {
                        {"joints", joints},
                        {"motors", mechanism.motors()},
                        {"motor_names", names},
+                       {"motor_units", units},
                        {"gravity", numbers(mechanism.gravity())},
                        {"output", mechanism.output()},
                        {"output_point", numbers(picture->output_point)},

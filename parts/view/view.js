@@ -11,8 +11,8 @@ function element(tag, attributes, text = "") {
   return out;
 }
 
-/** Numbers of a table by the rows' names; each cell keeps every digit. */
-function table(id, columns, names) {
+/** Numbers of a table by the rows' names, with units by row and column; each cell keeps every digit. */
+function table(id, columns, names, units = []) {
   const host = byId(id);
   const head = element("tr", {});
   for (const name of ["", ...columns]) head.append(element("th", { scope: "col", ...(name ? { class: "number" } : {}) }, name));
@@ -30,11 +30,14 @@ function table(id, columns, names) {
     cells.forEach((row, i) =>
       row.forEach((cell, j) => {
         const value = values?.[i]?.[j];
-        cell.textContent = value == null ? "–" : value.toPrecision(6);
+        cell.textContent = value == null ? "–" : inPrint(value) + (units[i] ? `\u00a0${units[i][j]}` : "");
         cell.dataset.value = value ?? "";
       }),
     );
 }
+
+/** Six digits, with a minus sign; what is nothing beside them is 0. */
+const inPrint = (value) => (Math.abs(value) < 1e-9 ? "0" : value.toPrecision(6).replace("-", "−"));
 
 /** As many digits as a field shows. */
 const short = (value) => Number(Number(value).toPrecision(7));
@@ -63,7 +66,8 @@ function controls(host, onChange) {
 }
 
 /** The names of the legs' coordinates; of legs of several kinds each has its own. */
-const coordinateNames = () => [0, 1, 2].map((k) => [...new Set(machine.legs.map(({ kind }) => kinds[kind].coordinates[k]))].join(" or "));
+const symbols = { phi: "φ, rad", psi: "ψ, rad", theta: "θ, rad", d: "d, m" };
+const coordinateNames = () => [0, 1, 2].map((k) => [...new Set(machine.legs.map(({ kind }) => symbols[kinds[kind].coordinates[k]]))].join(" or "));
 
 const replace = (track, numbers) => track.splice(0, numbers.length, ...numbers);
 
@@ -151,7 +155,7 @@ function mechanism() {
 
 const model = is_mechanism ? mechanism() : hexapod();
 const legTable = is_mechanism ? () => {} : table("legs", [...coordinateNames(), "margin"], machine.legs.map(({ kind }, k) => `leg ${k + 1}, ${kind}`));
-const motorTable = table("motors", ["coordinate", "effort at rest"], machine.motor_names);
+const motorTable = table("motors", ["coordinate", "effort at rest"], machine.motor_names, machine.motor_units);
 let render = () => {};
 
 function update() {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -58,8 +59,9 @@ struct SuiteEntry {
 SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path folder, const RunTime& time = {});
 
 /// Returns the verdict's reason in one sentence: the number of failed checks and the worst, or the nearest to its
-/// limit.
-std::string reason(Verdict verdict, const std::vector<Check>& checks);
+/// limit. That check has its name, by which `explain` knows it, or is called otherwise.
+using CheckTitle = std::function<std::string(const std::string& name)>;
+std::string reason(Verdict verdict, const std::vector<Check>& checks, const CheckTitle& title = {});
 
 /// Whether only checks of the fast kernels failed, so that the NOC itself is right.
 bool onlyFastFails(const std::vector<Check>& checks);

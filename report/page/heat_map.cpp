@@ -72,11 +72,16 @@ std::vector<Label> labelsOf(const HeatAxis& axis) {
 class Panel {
  public:
   Panel(const HeatMap& map, const HeatScale& scale, double x, double y)
-      : map_(map), scale_(scale), x_(x + left), y_(y + top) {}
+      : map_(map),
+        scale_(scale),
+        unit_(prefixed(scale.empty() ? 0 : scale.at(1), map.unit)),
+        x_(x + left),
+        y_(y + top) {}
 
   std::string drawing() const {
+    const std::string unit = map_.unit.empty() ? "" : ", " + unit_.second;
     return fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" class=\"title\">{}</text>\n", x_, y_ - 12,
-                       escaped(map_.title)) +
+                       escaped(map_.title + unit)) +
            cells() + path() + frame() + legend();
   }
 
@@ -145,13 +150,20 @@ class Panel {
                          y_ + panel - step * (c + 1), step + 0.3, colour(c));
     for (int k = 0; k <= 4; ++k)
       out += fmt::format("<text x=\"{:.0f}\" y=\"{:.1f}\">{}{}</text>\n", at + 19, y_ + panel * (1 - k / 4.0) + 4,
-                         k == 4 ? "≥ " : "",
-                         plainNumber(scale_.at(k / 4.0), digitsToTell(scale_.at(0), scale_.at(1)) - 1));
+                         k == 4 ? "≥ " : "", labelAt(k / 4.0));
     return out;
+  }
+
+  /// What is nothing beside a linear scale's range is 0.
+  std::string labelAt(double share) const {
+    const double low = scale_.at(0), high = scale_.at(1), value = scale_.at(share);
+    const bool is_nothing = !scale_.isLog() && std::abs(value) < 1e-3 * (high - low);
+    return plainNumber(is_nothing ? 0 : value / unit_.first, digitsToTell(low, high) - 1);
   }
 
   const HeatMap& map_;
   const HeatScale& scale_;
+  std::pair<double, std::string> unit_;  ///< with the prefix that suits the largest value
   double x_, y_;
 };
 

@@ -14,6 +14,7 @@ class HeatScale {
   HeatScale(std::vector<float> values, bool log);
 
   bool empty() const { return !(high_ > low_); }
+  bool isLog() const { return log_; }
   /// Index from 0; the last one for infinite values.
   int colourOf(double value) const;
   /// Returns the number at a share of the scale from 0 to 1.
@@ -38,6 +39,7 @@ struct HeatMap {
   HeatAxis x, y;
   std::vector<float> values;                         ///< x varies fastest; NaN cells are grey
   std::vector<std::pair<double, double>> path = {};  ///< drawn over the cells as far as it is within them
+  std::string unit = {};                             ///< of the values; follows the title with a prefix
 };
 
 /// Size of a heat map, px.

@@ -72,8 +72,18 @@ Facts blindFacts(const ValidationResult& result) {
   return out;
 }
 
+/// A list of many names begins with the first ones; `summary.json` has all.
+std::string shortened(const std::string& text) {
+  constexpr std::ptrdiff_t most = 12, shown = 8;
+  const std::ptrdiff_t commas = std::count(text.begin(), text.end(), ',');
+  if (commas < most || std::count(text.begin(), text.end(), ' ') != commas) return text;
+  std::size_t at = 0;
+  for (std::ptrdiff_t k = 0; k < shown; ++k) at = text.find(',', at + 1);
+  return text.substr(0, at) + fmt::format(" and {} more", commas + 1 - shown);
+}
+
 Facts printed(Facts facts) {
-  for (auto& [key, text] : facts) text = unbroken(formulaInPrint(text));
+  for (auto& [key, text] : facts) text = unbroken(formulaInPrint(shortened(text)));
   return facts;
 }
 
@@ -137,7 +147,10 @@ std::string reportHtml(const ValidationResult& result, Place place) {
                                 {"wide", firstGroup(charts) == PlotGroup::worst},
                                 {"machine", lineOf(result, picture.get())},
                                 {"figures", inWords(keyFiguresHtml(keyFigures(result)))},
-                                {"reason", unbroken(reason(result.verdict, result.checks))},
+                                {"reason", inWords(unbroken(reason(result.verdict, result.checks,
+                                                                   [&result](const std::string& check) {
+                                                                     return checkWords(check, result.kind).title;
+                                                                   })))},
                                 {"sources", inWords(figuresHtml(charts, {firstGroup(charts)}, "h2"))},
                                 {"stage", stageOf(result, picture.get())},
                                 {"in_suite", place == Place::in_suite},

@@ -54,7 +54,8 @@ HtmlValue cell(const SuiteEntry& entry, const std::string& name) {
 /// Why: the likely cause, or else the check that decides and how it stands.
 std::string reasonOf(const SuiteEntry& entry) {
   const Check* worst = worstCheck(entry.checks);
-  if (!entry.error.empty()) return entry.error.substr(0, entry.error.find('\n'));  // without the line of its place
+  if (!entry.error.empty())
+    return unbroken(entry.error.substr(0, entry.error.find('\n')));  // without the line of its place
   if (!entry.cause.empty()) {
     const std::string nearly = ", which explains more than 99.9999 % of the deviation";
     const std::size_t at = entry.cause.find(nearly);

@@ -86,16 +86,11 @@ std::string patternText(const MotorDeviation& motor) {
                      prettyUnit(motor.unit));
 }
 
-/// With as many digits as tell the two apart.
-std::string effortText(double value, const MotorDeviation& motor) {
-  return quantity(value, motor.unit,
-                  digitsToTell(std::min(motor.given, motor.expected), std::max(motor.given, motor.expected)));
-}
-
 HtmlValue motorRow(const MotorDeviation& motor, const std::vector<std::string>& names) {
+  const auto [given, expected] = toldApart(motor);
   return {{"motor", motorName(names, static_cast<std::size_t>(motor.motor))},
-          {"given", unbroken(effortText(motor.given, motor))},
-          {"expected", unbroken(effortText(motor.expected, motor))},
+          {"given", unbroken(given)},
+          {"expected", unbroken(expected)},
           {"right", motor.right},
           {"largest", quantity(motor.largest, motor.unit)},
           {"at", fmt::format("{:.4g} s", motor.t)},

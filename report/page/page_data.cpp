@@ -49,7 +49,7 @@ Json plotsJson(const std::vector<Plot>& plots) {
 
 /// Events of the result, and the worst instants of the most important checks.
 Json eventsJson(const ValidationResult& result) {
-  std::vector<Event> events = result.events;
+  std::vector<Event> events;  // the most important ones first
   const auto add = [&events](double t, const std::string& what, double value, const std::string& unit) {
     if (std::isfinite(value) && value > 0) events.push_back({t, what + quantity(value, unit)});
   };
@@ -58,6 +58,7 @@ Json eventsJson(const ValidationResult& result) {
   for (const Check& check : result.checks)
     if (check.name == "replay.position")
       add(check.largest.t, "largest replay error, ", check.largest.value, check.unit);
+  events.insert(events.end(), result.events.begin(), result.events.end());
   Json out = Json::array();
   for (const Event& event : events) out.push_back({{"t", screenNumber(event.t)}, {"what", event.what}});
   return out;

@@ -157,9 +157,9 @@ std::string inWords(const Plot& plot) {
     }
   }
   if (largest == nullptr) return "Nothing to draw: every value is zero or not finite.";
-  const std::string unit = largest->unit.empty() || largest->unit == "1" ? "" : " " + largest->unit;
   const std::string x = number(plot.x[row], 4);
-  return unbroken(fmt::format("Largest: {} = {}{} at {}.", largest->label, number(largest->values[row], 4), unit,
+  return unbroken(fmt::format("Largest: {} = {} at {}.", largest->label,
+                              quantity(largest->values[row], largest->unit == "1" ? "" : largest->unit, 4),
                               plot.over_time ? "t = " + x + " s" : plot.x_label + " = " + x));
 }
 

@@ -84,9 +84,18 @@ class View {
   std::string dot(const Vector3d& at, const char* kind) const {
     return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" class=\"{}\"/>\n", x(at), y(at), kind);
   }
+  /// Legs that start at one place of the page share a label.
   std::string number(std::size_t i) const {
+    constexpr double near = 12;  // px
+    std::string all;
+    for (std::size_t k = 0; k < pose_.legs.size(); ++k) {
+      const Vector3d &of_k = pose_.legs[k].A, &of_i = pose_.legs[i].A;
+      if (std::abs(x(of_k) - x(of_i)) > near || std::abs(y(of_k) - y(of_i)) > near) continue;
+      if (k < i) return "";
+      all += fmt::format("{}{}", all.empty() ? "" : ", ", k + 1);
+    }
     return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x(pose_.legs[i].A) + 6, y(pose_.legs[i].A) + 14,
-                       i + 1);
+                       all);
   }
   std::string polygon(Vector3d LegPoints::*corner, const char* kind) const {
     std::string points;

@@ -13,16 +13,30 @@ namespace {
 
 /// Mistakes with one sentence but for the body's or joint's name.
 struct SameMistake {
-  std::string without, owners;  ///< the sentence without " of 'crank'", of a number without its values; the names
+  std::string without;              ///< the sentence without " of 'crank'", of a number without its values
+  std::vector<std::string> owners;  ///< bodies or joints; empty for one of the whole machine
   std::size_t at = 0, count = 0;
 };
 
+/// " of 'a', 'b', 'c', and 4 more"; several bodies together are not named again after each of them.
+std::string ofOwners(std::vector<std::string> owners) {
+  constexpr std::size_t most_named = 3;
+  const auto isTogether = [](const std::string& owner) { return owner.find(", ") != std::string::npos; };
+  if (!std::all_of(owners.begin(), owners.end(), isTogether))
+    owners.erase(std::remove_if(owners.begin(), owners.end(), isTogether), owners.end());
+  std::string out;
+  for (std::size_t k = 0; k < owners.size() && k < most_named; ++k)
+    out += fmt::format("{}'{}'", out.empty() ? " of " : ", ", owners[k]);
+  return owners.size() > most_named ? out + fmt::format(", and {} more", owners.size() - most_named) : out;
+}
+
 SameMistake sameMistake(const BlindSpot& one) {
-  const std::string owner = " of '" + (one.cause.joint.empty() ? one.cause.body : one.cause.joint) + "'";
+  const std::string& name = one.cause.joint.empty() ? one.cause.body : one.cause.joint;
+  const std::string owner = " of '" + name + "'";
   const std::size_t at = one.mistake.find(owner);
-  if (at == std::string::npos) return {one.mistake, "", at, 1};
+  if (at == std::string::npos) return {one.mistake, {}, at, 1};
   const bool has_values = one.cause.kind == CauseKind::parameter;
-  return {one.mistake.substr(0, at) + (has_values ? "" : one.mistake.substr(at + owner.size())), owner, at, 1};
+  return {one.mistake.substr(0, at) + (has_values ? "" : one.mistake.substr(at + owner.size())), {name}, at, 1};
 }
 
 }  // namespace
@@ -38,7 +52,7 @@ std::vector<BlindSpot> alikeAsOne(const std::vector<BlindSpot>& blind) {
       same.push_back(std::move(mistake));
       out.push_back(one);
     } else {
-      known->owners += known->owners.empty() ? mistake.owners : "," + mistake.owners.substr(3);
+      known->owners.push_back(mistake.owners.front());
       ++known->count;
     }
   }
@@ -46,8 +60,8 @@ std::vector<BlindSpot> alikeAsOne(const std::vector<BlindSpot>& blind) {
     const SameMistake& all = same[k];
     if (all.count == 1) continue;
     out[k].mistake = all.at == std::string::npos
-                         ? all.without + " (also that" + all.owners + " alone)"
-                         : all.without.substr(0, all.at) + all.owners + all.without.substr(all.at);
+                         ? all.without + " (also that" + ofOwners(all.owners) + " alone)"
+                         : all.without.substr(0, all.at) + ofOwners(all.owners) + all.without.substr(all.at);
   }
   return out;
 }

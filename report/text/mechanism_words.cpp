@@ -48,14 +48,6 @@ constexpr std::array mechanism_rows = {
     MechanismRow{"closure.position", "Loops stay closed",
                  "The loops of the replay stay closed: bodies keep their common points together."}};
 
-/// Digits that tell two numbers apart, to a tenth of their difference.
-std::string toldApart(double value, double from, const std::string& unit) {
-  if (!std::isfinite(value)) return "no number";
-  const double off = std::abs(value - from), size = std::max(std::abs(value), std::abs(from));
-  const int digits = off > 0 && size > 0 ? static_cast<int>(std::ceil(std::log10(size / off))) + 1 : 4;
-  return quantity(value, unit, std::clamp(digits, 4, 17));
-}
-
 /// "off by 30 mN·m (1 % of the largest), "; empty without a number.
 std::string offText(const MotorDeviation& motor) {
   if (!std::isfinite(motor.largest)) return "";
@@ -69,6 +61,15 @@ std::string count(std::size_t number, const char* noun, const char* many) {
 }
 
 }  // namespace
+
+std::pair<std::string, std::string> toldApart(const MotorDeviation& motor) {
+  const double off = std::abs(motor.given - motor.expected),
+               size = std::max(std::abs(motor.given), std::abs(motor.expected));
+  const int digits = off > 0 && std::isfinite(size) ? static_cast<int>(std::ceil(std::log10(size / off))) + 1 : 4;
+  const SideBySide both = sideBySide({motor.given, motor.expected}, motor.unit, std::clamp(digits, 4, 17));
+  const auto text = [&](std::size_t k, double value) { return std::isfinite(value) ? both.text(k) : "no number"; };
+  return {text(0, motor.given), text(1, motor.expected)};
+}
 
 std::vector<std::string> motorNames(const ValidationResult& result) {
   std::vector<std::string> out;
@@ -93,10 +94,10 @@ std::string worstMotor(const ValidationResult& result) {
   const std::vector<std::string> names = motorNames(result);
   const std::optional<MotorDeviation> worst = worstOf(motorsOff(result));
   if (!worst) return "";
+  const auto [given, expected] = toldApart(*worst);
   return fmt::format("{}{} was given {} where {} is expected, {}at t = {:.4g} s", names.empty() ? "motor " : "",
-                     motorName(names, static_cast<std::size_t>(worst->motor)),
-                     toldApart(worst->given, worst->expected, worst->unit),
-                     toldApart(worst->expected, worst->given, worst->unit), offText(*worst), worst->t);
+                     motorName(names, static_cast<std::size_t>(worst->motor)), given, expected, offText(*worst),
+                     worst->t);
 }
 
 std::string mechanismLine(const MechanismPicture& picture) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "validation/verdict/result.h"
@@ -15,6 +16,12 @@ std::vector<std::string> motorNames(const ValidationResult& result);
 
 /// Returns the motor's name, or its number from 1.
 std::string motorName(const std::vector<std::string>& names, std::size_t motor);
+
+struct MotorDeviation;
+
+/// What the motor was given at its worst instant and what is expected, in one unit, with digits that tell them apart to
+/// a tenth of their difference; "no number" for what is none.
+std::pair<std::string, std::string> toldApart(const MotorDeviation& motor);
 
 /// What a check is called and what it means for a machine of this kind ("manipulator", "mechanism"); as in the
 /// catalogue but for words that only the other kind has.

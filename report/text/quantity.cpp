@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <regex>
 #include <utility>
 
@@ -34,6 +35,19 @@ bool takesPrefix(const std::string& unit) {
   return first == "m" || first == "N" || first == "J" || first == "rad" || first == "s" || first == "W";
 }
 
+double roundedTo(double value, int digits) { return leadingNumber(fmt::format("{:.{}e}", value, digits - 1)).value; }
+
+/// The power of a thousand of the prefix that suits the value; none for units and sizes without one.
+std::optional<int> prefixOf(double value, const std::string& pretty, int digits) {
+  if (!takesPrefix(pretty) || value == 0 || !std::isfinite(value)) return std::nullopt;
+  // Uses the rounded value: 999.96 is 1.00 k.
+  const double shown = std::abs(roundedTo(value, digits));
+  const int thousands = static_cast<int>(std::floor(std::log10(shown) / 3 + 1e-9));
+  const bool small = pretty == "rad" || pretty == "s" || pretty.find("rad/") == 0;  // no kilo and larger prefixes
+  if (thousands < -5 || thousands > 3) return std::nullopt;
+  return std::min(thousands, small ? 0 : 3);
+}
+
 /// Rounds to `digits`, without an exponent if the text is short.
 std::string rounded(double value, int digits) {
   const std::string text = fmt::format("{:.{}g}", value, digits);
@@ -51,20 +65,42 @@ std::string prettyUnit(const std::string& unit) {
 }
 
 std::string quantity(double value, const std::string& unit, int digits) {
-  const std::string pretty = prettyUnit(unit);
+  const auto [size, pretty] = prefixed(value, unit, digits);
+  const std::string end = pretty.empty() ? "" : joined + pretty;
   if (!std::isfinite(value)) return number(value);
-  if (value == 0) return pretty.empty() ? "0" : "0" + joined + pretty;
-  if (pretty.empty() || !takesPrefix(pretty))
-    return plainNumber(value, digits) + (pretty.empty() ? "" : joined + pretty);
+  const std::optional<int> prefix = prefixOf(value, prettyUnit(unit), digits);
+  return (prefix ? rounded(roundedTo(value, digits) / size, digits) : plainNumber(value, digits)) + end;
+}
+
+std::pair<double, std::string> prefixed(double value, const std::string& unit, int digits) {
   const std::array<const char*, 9> prefixes = {"f", "p", "n", "µ", "m", "", "k", "M", "G"};
-  // Uses the rounded value: 999.96 is 1.00 k.
-  const double shown = leadingNumber(fmt::format("{:.{}e}", value, digits - 1)).value;
-  const int thousands = static_cast<int>(std::floor(std::log10(std::abs(shown)) / 3 + 1e-9));
-  const bool small = pretty == "rad" || pretty == "s" || pretty.find("rad/") == 0;  // no kilo and larger prefixes
-  const int highest = small ? 0 : 3;
-  if (thousands < -5 || thousands > 3) return plainNumber(value, digits) + joined + pretty;
-  const int used = std::min(thousands, highest);
-  return fmt::format("{}{}{}{}", rounded(shown / std::pow(1000.0, used), digits), joined, prefixes[used + 5], pretty);
+  const std::string pretty = prettyUnit(unit);
+  const int used = prefixOf(value, pretty, digits).value_or(0);
+  return {std::pow(1000.0, used), prefixes[used + 5] + pretty};
+}
+
+std::string SideBySide::text(std::size_t k) const { return numbers[k] + (unit.empty() ? "" : joined + unit); }
+
+SideBySide sideBySide(const std::vector<double>& values, const std::string& unit, int digits) {
+  double largest = 0;
+  for (const double value : values)
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  const auto [size, pretty] = prefixed(largest, unit, digits);
+  SideBySide out{{}, pretty};
+  const double shown = roundedTo(largest, digits) / size;
+  const bool is_plain = shown == 0 || (shown >= 1e-3 && shown < 1e6);
+  int decimals = shown == 0 ? 0 : std::max(0, digits - 1 - static_cast<int>(std::floor(std::log10(shown) + 1e-9)));
+  const auto fixed = [&](double value) { return fmt::format("{:.{}f}", value / size, decimals); };
+  const auto endsInZero = [&](double value) { return !std::isfinite(value) || fixed(value).back() == '0'; };
+  while (decimals > 0 && std::all_of(values.begin(), values.end(), endsInZero)) --decimals;
+  for (const double value : values) {
+    const bool is_zero = std::abs(value / size) < 0.5 * std::pow(10.0, -decimals);
+    out.numbers.push_back(!std::isfinite(value) ? number(value)
+                          : is_zero             ? "0"
+                          : is_plain            ? fixed(value)
+                                                : plainNumber(value / size, digits));
+  }
+  return out;
 }
 
 std::string plainNumber(double value, int digits) {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace ursula::report {
 
@@ -10,6 +13,18 @@ std::string prettyUnit(const std::string& unit);
 /// Formats a value with unit and prefix: 7.7e-12 "m" → "7.7 pm". Pure numbers and powers of ten beyond the prefixes
 /// stay as they are. Values that are not finite become words.
 std::string quantity(double value, const std::string& unit, int digits = 3);
+
+/// Numbers that are read side by side, all in the unit that suits the largest.
+struct SideBySide {
+  std::vector<std::string> numbers;  ///< with the decimals that the largest needs for its digits; smaller ones are 0
+  std::string unit;                  ///< with its prefix; may be empty
+  /// The k-th number with its unit.
+  std::string text(std::size_t k) const;
+};
+SideBySide sideBySide(const std::vector<double>& values, const std::string& unit, int digits);
+
+/// The size of the prefixed unit that suits a value, and its text: 32000 "N m" → 1000, "kN·m".
+std::pair<double, std::string> prefixed(double value, const std::string& unit, int digits = 3);
 
 /// 3.2e-15 → "3.2 × 10⁻¹⁵"; from 0.001 to 99999 plain.
 std::string plainNumber(double value, int digits = 3);

@@ -238,6 +238,8 @@ std::vector<KeyFigure> keyFigures(const ValidationResult& result) {
 
 bool repeats(const Check& check, const Check& first) {
   constexpr double as_large = 0.01;
+  if (check.verdict == Verdict::inconclusive && first.verdict == check.verdict)
+    return !check.why.empty() && check.why == first.why;
   const bool fail = check.verdict == Verdict::fail && first.verdict == Verdict::fail && isOf(first, "torque");
   if (!fail || !std::isfinite(check.value) || !std::isfinite(first.value)) return false;
   if (check.name == "acceleration.pointwise") return true;

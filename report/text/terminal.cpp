@@ -202,8 +202,8 @@ std::string motorsText(const std::vector<MotorDeviation>& motors, const std::vec
   std::vector<std::vector<std::string>> rows = {{"motor", "off by", "at t", "factor", "offset"}};
   for (const MotorDeviation& motor : motors)
     rows.push_back({withoutControls(motorName(names, motor.motor)),
-                    fmt::format("{:.3g} {}", motor.largest, prettyUnit(motor.unit)), fmt::format("{:.4g} s", motor.t),
-                    motor.factor ? factorText(*motor.factor) : "",
+                    motor.right ? "within its limit" : fmt::format("{:.3g} {}", motor.largest, prettyUnit(motor.unit)),
+                    motor.right ? "" : fmt::format("{:.4g} s", motor.t), motor.factor ? factorText(*motor.factor) : "",
                     motor.offset ? fmt::format("{:.6g} {}", *motor.offset, prettyUnit(motor.unit)) : ""});
   std::vector<Align> columns(5, Align::right);
   if (!names.empty()) columns[0] = Align::left;
@@ -249,16 +249,16 @@ std::string reasonsText(const ValidationResult& result) {
   return out.empty() ? "" : "\n" + out;
 }
 
-/// The verdict with its size and its cause.
+/// The verdict, what is wrong, why, and how much.
 std::string headText(const ValidationResult& result, const std::string& verdict) {
   const std::string worst = worstMotor(result), size = sizeText(result), remedy = remedyText(result);
   std::string out = fmt::format("{}: {}\nverdict: {} — {}\n", withoutControls(result.scenario), verdict, verdict,
                                 reason(result.verdict, result.checks));
-  for (const std::string& line : deviationLines(result)) out += prettyUnit(line) + "\n";
   if (!worst.empty()) out += fmt::format("worst: {}\n", withoutControls(worst));
-  if (!size.empty()) out += "size: " + size + "\n";
   if (!result.cause_words.cause.empty()) out += prettyUnit(causeText(result.cause_words)) + "\n";
   if (!remedy.empty()) out += "remedy: " + withoutControls(remedy) + "\n";
+  if (!size.empty()) out += "size: " + size + "\n";
+  for (const std::string& line : deviationLines(result)) out += prettyUnit(line) + "\n";
   return out;
 }
 

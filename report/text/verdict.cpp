@@ -48,7 +48,7 @@ std::string standing(const Check& check) {
   if (std::isnan(share)) return "cannot be set against its limit";
   if (std::isinf(share)) return "exceeds its limit of 0";
   if (share > 1) return fmt::format("is at {:.{}g} times its limit", share, share < 1.01 ? 8 : 3);
-  return fmt::format("is at {:.3g} of its limit", share);
+  return share == 0 ? "is at 0 % of its limit" : "is at " + report::percentText(share) + " of its limit";
 }
 
 std::ptrdiff_t judgedCount(const std::vector<Check>& checks) {
@@ -72,9 +72,10 @@ std::ptrdiff_t countOf(const std::vector<Check>& checks, Verdict verdict) {
                        [verdict](const Check& check) { return check.verdict == verdict; });
 }
 
-std::string reason(Verdict verdict, const std::vector<Check>& checks) {
+std::string reason(Verdict verdict, const std::vector<Check>& checks, const CheckTitle& title) {
   if (checks.empty()) return "No check was made.";
   const Check& worst = *worstCheck(checks);
+  const std::string called = title ? "“" + title(worst.name) + "”" : worst.name;
   const auto total = judgedCount(checks);
   const auto count = countOf(checks, verdict);
   // A caller may set a worse verdict than its checks; then they are not the reason.
@@ -82,11 +83,11 @@ std::string reason(Verdict verdict, const std::vector<Check>& checks) {
   switch (verdict) {
     case Verdict::fail:
       return fmt::format("{} of {} failed{} {}, which {}.{}", count, plural(total), count == 1 ? ":" : ", the worst",
-                         worst.name, standing(worst),
+                         called, standing(worst),
                          onlyFastFails(checks) ? " The fast kernels that users call are wrong; the NOC holds." : "");
     case Verdict::inconclusive:
       return fmt::format("Nothing failed, but {} of {} cannot be judged here{} {}.", count, plural(total),
-                         count == 1 ? ":" : ", among them", worst.name);
+                         count == 1 ? ":" : ", among them", called);
     case Verdict::pass:
     case Verdict::not_applicable:
       break;
@@ -99,8 +100,8 @@ std::string reason(Verdict verdict, const std::vector<Check>& checks) {
     return check.verdict == Verdict::not_applicable && check.reason == Reason::not_covered;
   });
   const std::string rest = uncovered == 0 ? "" : fmt::format("; {} not covered, since nothing moves", uncovered);
-  return fmt::format("{} of {} held{}{}; the closest to its limit, {}, {}.", count, plural(total), whose, rest,
-                     worst.name, standing(worst));
+  return fmt::format("{} of {} held{}{}; the closest to its limit, {}, {}.", count, plural(total), whose, rest, called,
+                     standing(worst));
 }
 
 namespace {
@@ -222,8 +223,10 @@ std::string remedyText(const ValidationResult& result) {
 std::string sizeText(const ValidationResult& result) {
   if (!result.size) return "";
   const FailureSize& size = *result.size;
-  const std::string least = fmt::format("the least term of the equations, {}, whose effect is {}", size.least_term,
-                                        shareText(size.least_share));
+  std::string term = size.least_term;
+  std::replace(term.begin(), term.end(), '_', ' ');
+  const std::string least =
+      fmt::format("the least term of the equations, {}, whose effect is {}", term, shareText(size.least_share));
   switch (size.grade) {
     case FailureGrade::rounding:
       return fmt::format("rounding: {:.3g} times the limit", size.limits);

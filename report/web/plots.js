@@ -3,7 +3,7 @@ import { addTools } from "./plot_tools.js";
 import { drawLegend } from "./legend.js";
 import { color, watchTheme } from "./theme.js";
 import { colorOf, dashOf, widthOf } from "./line_style.js";
-import { isDecade, linearTicks, logTicks, shortNumber } from "./ticks.js";
+import { linearTicks, logMarks, logTicks, shortNumber } from "./ticks.js";
 
 // Zero has no place on a logarithmic axis and becomes a gap. So do values below 1e-32, at which uPlot throws.
 const least_on_log = 1e-30;
@@ -24,8 +24,7 @@ function seriesOptions(line, plot, few) {
   };
 }
 
-// uPlot would draw grid lines at 2, 3, … 9 × 10ⁿ, which over many decades become a grey wall.
-const onlyDecades = (_, splits) => splits.map((split) => (isDecade(split) ? split : null));
+const onlyMarks = (_, splits) => logMarks(splits);
 
 function axisOptions(label, log, size) {
   return {
@@ -35,8 +34,8 @@ function axisOptions(label, log, size) {
     font: "12px system-ui, sans-serif",
     size,
     stroke: () => color("quiet"),
-    grid: { stroke: () => color("rule"), width: 1, ...(log && { filter: onlyDecades }) },
-    ticks: { stroke: () => color("rule"), width: 1, size: 5, ...(log && { filter: onlyDecades }) },
+    grid: { stroke: () => color("rule"), width: 1, ...(log && { filter: onlyMarks }) },
+    ticks: { stroke: () => color("rule"), width: 1, size: 5, ...(log && { filter: onlyMarks }) },
     values: (_, splits, __, ___, increment) => (log ? logTicks(splits) : linearTicks(splits, increment)),
   };
 }
@@ -106,7 +105,7 @@ function options(plot, width, events, together) {
       x: { time: false, distr: plot.logX ? 3 : 1, ...(plot.overTime && together.range) },
       y: { distr: plot.logY ? 3 : 1 },
     },
-    axes: [axisOptions(plot.xLabel, plot.logX, 30), axisOptions(plot.yLabel, plot.logY, plot.logY ? 60 : 74)],
+    axes: [axisOptions(plot.xLabel, plot.logX, 30), axisOptions(plot.yLabel, plot.logY, plot.logY ? 60 : 84)],
     series: [
       { label: plot.xLabel, value: (_, value) => shortNumber(value) },
       ...plot.lines.map((line) => seriesOptions(line, plot, few)),

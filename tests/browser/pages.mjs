@@ -92,6 +92,12 @@ export async function drawnBox(page) {
   }, [drawn.toString("base64"), blank.toString("base64")]);
 }
 
+/** Tables that are wider than the place they have, so that a reader must scroll sideways. */
+export const wideTables = (page) =>
+  page.evaluate(() =>
+    [...document.querySelectorAll(".wide:has(> table:not(.map))")].filter((box) => box.scrollWidth > box.clientWidth + 1).map((box) => box.getAttribute("aria-label") ?? box.className),
+  );
+
 /** Texts that a box without a scroll bar hides, wholly or in part. */
 export const cutTexts = (page) =>
   page.evaluate(() => {

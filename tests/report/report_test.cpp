@@ -105,7 +105,7 @@ TEST(Summary, keepsBothTextsOfARepeatedKey) {
 TEST(Reason, namesTheWorstCheckAndHowFarItIs) {
   const auto sentence = [](const ValidationResult& result) { return reason(result.verdict, result.checks); };
   EXPECT_EQ(sentence(test::passedSample()),
-            "8 of 8 checks held; the closest to its limit, replay.position, is at 0.806 of its limit.");
+            "8 of 8 checks held; the closest to its limit, replay.position, is at 81 % of its limit.");
   EXPECT_EQ(sentence(test::failedSample()),
             "3 of 9 checks failed, the worst torque.pointwise, which is at 1.01e+11 times its limit.");
   EXPECT_EQ(sentence(test::inconclusiveSample()),
@@ -130,7 +130,7 @@ TEST(Standing, saysWhatNumbersCannot) {
   EXPECT_EQ(words(std::numeric_limits<double>::infinity(), 1), "is infinite");
   EXPECT_EQ(words(1, nan), "cannot be set against its limit");
   EXPECT_EQ(words(1, 0), "exceeds its limit of 0");
-  EXPECT_EQ(words(1, 2), "is at 0.5 of its limit");
+  EXPECT_EQ(words(1, 2), "is at 50 % of its limit");
   EXPECT_EQ(words(3, 2), "is at 1.5 times its limit");
 }
 
@@ -244,6 +244,37 @@ std::string plain(std::string text) {
   for (auto at = text.find(joined); at != std::string::npos; at = text.find(joined))
     text.replace(at, joined.size(), " ");
   return text;
+}
+
+TEST(Quantity, hasOneUnitForWhatIsReadSideBySide) {
+  const auto texts = [](const std::vector<double>& values, const char* unit, int digits) {
+    const report::SideBySide all = report::sideBySide(values, unit, digits);
+    std::vector<std::string> out;
+    for (std::size_t k = 0; k < values.size(); ++k) out.push_back(plain(all.text(k)));
+    return out;
+  };
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(texts({-0.1829, 72.02}, "N m", 4), (Texts{"-0.18 N·m", "72.02 N·m"}));
+  EXPECT_EQ(texts({7.8e-16, 60.44}, "N m", 4), (Texts{"0 N·m", "60.44 N·m"})) << "rounding beside a torque";
+  EXPECT_EQ(texts({-4.0965, -4.0797}, "N m", 4), (Texts{"-4.097 N·m", "-4.080 N·m"})) << "the same decimals";
+  EXPECT_EQ(texts({1131.2, 1105.7}, "N", 4), (Texts{"1.131 kN", "1.106 kN"}));
+  EXPECT_EQ(texts({999.6, 3}, "N", 3), (Texts{"1.000 kN", "0.003 kN"})) << "as rounded";
+  EXPECT_EQ(texts({2, 3}, "N", 4), (Texts{"2 N", "3 N"}));
+  EXPECT_EQ(texts({nan, 3}, "", 4), (Texts{"none", "3"}));
+  EXPECT_EQ(texts({0, 0}, "N", 4), (Texts{"0 N", "0 N"}));
+}
+
+TEST(Plots, areDescribedWithAPrefix) {
+  report::Plot plot;
+  plot.x_label = "t (s)";
+  plot.over_time = true;
+  plot.x = {0, 0.5};
+  plot.lines = {{"τ", "N·m", 0, report::Stroke::line, {0, 31990}}};
+  EXPECT_EQ(plain(report::inWords(plot)), "Largest: τ = 31.99 kN·m at t = 0.5 s.");
+  plot.lines = {{"error", "m", 0, report::Stroke::line, {-1.523e-11, 0}}};
+  EXPECT_EQ(plain(report::inWords(plot)), "Largest: error = -15.23 pm at t = 0 s.");
+  plot.lines[0].unit = "1";
+  EXPECT_EQ(plain(report::inWords(plot)), "Largest: error = −1.523 × 10⁻¹¹ at t = 0 s.");
 }
 
 TEST(Quantity, takesAPrefixAndSaysWhatIsNoNumber) {

@@ -149,6 +149,19 @@ TEST(BlindText, namesTheBodiesOfOneMistakeTogether) {
   EXPECT_THAT(report::blindText(blind), HasSubstr("  - and 1 more: --json"));
 }
 
+TEST(BlindText, namesFewOfManyBodiesAndNoneTwice) {
+  std::vector<BlindSpot> blind;
+  for (const char* body : {"a", "b", "c", "a, b, c", "d", "e"})
+    blind.push_back(
+        {std::string("the spin of '") + body + "' is left out", {}, {CauseKind::missing_term, "spin", body}});
+  EXPECT_EQ(report::alikeAsOne(blind).at(0).mistake, "the spin of 'a', 'b', 'c', and 2 more is left out");
+  blind.resize(3);
+  EXPECT_EQ(report::alikeAsOne(blind).at(0).mistake, "the spin of 'a', 'b', 'c' is left out");
+  const std::vector<BlindSpot> together = {blind[0],
+                                           {"the mass of 'a, b' is wrong", {}, {CauseKind::parameter, "", "a, b"}}};
+  EXPECT_EQ(report::alikeAsOne(together).at(1).mistake, "the mass of 'a, b' is wrong");
+}
+
 TEST(TerminalText, saysNothingOfMotorsThatAreRight) {
   EXPECT_THAT(report::validationText(test::passedSample(), false), Not(HasSubstr("torques against")));
 }
@@ -190,7 +203,7 @@ TEST(TerminalText, isColouredOnlyWhereThatIsWanted) {
 TEST(TerminalText, quietlyIsOneLine) {
   EXPECT_EQ(
       report::quietText(test::passedSample(), false),
-      "paper-helix: pass — 8 of 8 checks held; the closest to its limit, replay.position, is at 0.806 of its limit.\n");
+      "paper-helix: pass — 8 of 8 checks held; the closest to its limit, replay.position, is at 81 % of its limit.\n");
   const std::string failed = report::quietText(test::externalSample(), false);
   EXPECT_THAT(failed, AllOf(StartsWith("leg-3-off: fail — "), HasSubstr("; likely cause: a factor of 1.001 on leg 3")));
   EXPECT_EQ(std::count(failed.begin(), failed.end(), '\n'), 1);

@@ -206,6 +206,11 @@ TEST(Picture, drawsCylindersAndRails) {
   EXPECT_THAT(pus, HasSubstr("class=\"carriage\""));
 }
 
+TEST(Picture, hasOneLabelForLegsAtOnePlaceOfThePage) {
+  const std::string svg = picture(starting("UPS"));  // symmetric: from the front two legs stand behind two others
+  for (const char* label : {">1, 2<", ">3, 6<", ">4, 5<", ">3<", ">6<"}) EXPECT_THAT(svg, HasSubstr(label));
+}
+
 TEST(Picture, ofAPoseOutOfReachSaysSo) {
   const std::string far = replaced(good_scenario, "height_phase = 2.2", "height_phase = 6");
   const std::string svg = picture(parseScenario(far, "a.toml"));

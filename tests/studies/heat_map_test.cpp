@@ -29,6 +29,22 @@ TEST(HeatMap, DrawsWhatIsNotThereInGrey) {
   EXPECT_THAT(heatMapPanel(map, scale, 0, 0), HasSubstr(heat_map_nothing));
 }
 
+TEST(HeatMap, SaysItsNumbersInTheUnitThatSuitsTheLargest) {
+  HeatMap map{"torque", {"x", {0, 1}}, {"y", {0, 5}}, {2740, 11900, 51300, 962000}, {}, "N m"};
+  const std::string svg = heatMapPanel(map, HeatScale(map.values, true), 0, 0);
+  EXPECT_THAT(svg, HasSubstr(">torque, kN·m<"));
+  EXPECT_THAT(svg, HasSubstr(">2.74<"));
+  EXPECT_THAT(svg, Not(HasSubstr("10⁵")));
+  map.unit = "";
+  EXPECT_THAT(heatMapPanel(map, HeatScale(map.values, true), 0, 0), HasSubstr(">torque<"));
+}
+
+TEST(HeatMap, ShowsWhatIsNothingBesideItsRangeAsZero) {
+  HeatMap map{"margin", {"x", {0, 1}}, {"y", {0, 5}}, {3.3e-5F, 0.1F, 0.2F, 0.42F}, {}, "m"};
+  EXPECT_THAT(heatMapPanel(map, HeatScale(map.values, false), 0, 0), HasSubstr(">0<"));
+  EXPECT_THAT(heatMapPanel(map, HeatScale(map.values, true), 0, 0), HasSubstr("10⁻")) << "but not over decades";
+}
+
 TEST(Digits, TellNarrowRangesApart) {
   EXPECT_EQ(digitsToTell(400, 600), 4);
   EXPECT_EQ(plainNumber(1.0002, digitsToTell(0.9998, 1.0003)), "1.0002");

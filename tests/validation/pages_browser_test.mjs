@@ -2,7 +2,7 @@
 // usage: node pages_browser_test.mjs SAMPLES_DIR PACKAGE_DIR CHROMIUM
 import assert from "node:assert/strict";
 import { after, afterEach, before, test } from "node:test";
-import { assertQuietAndOffline, close, closePages, colorsOf, cutTexts, launch, opened, seriousFindings } from "../browser/pages.mjs";
+import { assertQuietAndOffline, close, closePages, colorsOf, cutTexts, launch, opened, seriousFindings, wideTables } from "../browser/pages.mjs";
 
 before(launch);
 after(close);
@@ -134,6 +134,26 @@ test("a text that its box hides is found", async () => {
   assert.deepEqual(await cutTexts(page), ["a text that is cut"]);
 });
 
+test("a table that must be scrolled is found", async () => {
+  const { page } = await opened("prove.html", { viewport: { width: 390, height: 800 } });
+  await page.evaluate(() => document.body.insertAdjacentHTML("beforeend", "<div class=wide aria-label=broad><table><tr><td style='white-space:nowrap'>a table of many words that is broader than a phone or more</table></div>"));
+  assert.deepEqual(await wideTables(page), ["broad"]);
+});
+
+for (const file of ["identify/report.html", "sweep/report.html"])
+  test(`the sections of ${file} can all be reached at 1280 pixels`, async () => {
+    const { page } = await opened(file);
+    assert.deepEqual(await page.locator("nav").evaluate((nav) => nav.scrollWidth - nav.clientWidth), 0);
+  });
+
+test("axes and legends print powers of ten", async () => {
+  const { page } = await opened("comparison/compare.html");
+  const legend = page.locator("details.group[open] .u-legend").nth(1);
+  await legend.scrollIntoViewIfNeeded();
+  assert.match(await legend.innerText(), /upper limit\s*:?\s*[\d.]+ × 10⁻\d/);
+  assert.doesNotMatch(await legend.innerText(), /\d(e−?\d|\.0000)/);
+});
+
 test("an index prints the colours of its checks, and no filter", async () => {
   const { page } = await opened("index.html");
   await page.emulateMedia({ media: "print" });
@@ -142,12 +162,13 @@ test("an index prints the colours of its checks, and no filter", async () => {
 });
 
 const kinds = ["index.html", "failed/report.html", "external/report.html", "fourbar/report.html", "engines/report.html", "comparison/compare.html",
-  "prove.html", "weak.html", "sweep/report.html", "view/UPS.html", "view/delta.html"];
+  "prove.html", "weak.html", "sweep/report.html", "identify/report.html", "view/UPS.html", "view/delta.html"];
 for (const file of kinds)
   test(`axe finds nothing serious in ${file}, light or dark, and 390 pixels hold it with every text whole`, async () => {
     const { page, complaints } = await opened(file, { viewport: { width: 390, height: 800 } });
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
     assert.deepEqual(await cutTexts(page), []);
+    assert.deepEqual(await wideTables(page), []);
     assert.deepEqual(await seriousFindings(page), []);
     assert.deepEqual(complaints, []);
   });

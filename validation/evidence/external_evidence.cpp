@@ -240,13 +240,12 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   const std::string basis = splineBasis(*limit, torques.file.rows(), units);
   if (const GrowthWindow* window = hopeless(plan, windows, useful)) {
     const double bound = plannedBound(plan, *window);
-    out.not_replayed = fmt::format(
-        "too few samples or digits for a replay: from t = {:.6g} s what the file leaves open may move P by {:.3g} m "
-        "within {:.3g} s, and a verdict needs {:.3g} m",
-        window->start() * units.time, bound * units.length, (window->end() - window->start()) * units.time,
-        useful * units.length);
     out.enough_rows = enoughRows(scenario, *limit, amplification, useful, deadline);
-    out.not_replayed += remedyOf(out.enough_rows);
+    out.not_replayed = fmt::format(
+        "too few samples or digits for a replay{}. From t = {:.6g} s what the file leaves open may move P by {:.3g} m "
+        "within {:.3g} s, and a verdict needs {:.3g} m",
+        remedyOf(out.enough_rows), window->start() * units.time, bound * units.length,
+        (window->end() - window->start()) * units.time, useful * units.length);
     out.bound = bound;
     out.between = limit->largestInterpolation();
     out.spline = basis;

@@ -115,7 +115,6 @@ void addEvents(const std::vector<PointwiseSample>& samples, const std::vector<Wi
                const Units& units, ValidationResult& result) {
   const auto add = [&](double t, const char* what) { result.events.push_back({t * units.time, what}); };
   for (const WindowedReplay& window : windows) {
-    if (&window != &windows.front()) add(window.window.start(), "the replay starts again");
     const Replay& replay = window.replay;
     if (!replay.gave_up.empty()) add(replay.stopped_at, "the replay stopped");
     if (replay.left_path) add(replay.steps.back().t, "the replay left the path");

@@ -91,7 +91,7 @@ const char* exactCall(const EngineResult& engine) {
 
 std::string worstText(const RecipeResult& found, const SideBySide& in) {
   const SideBySide::Motor& motor = in.motors.at(found.motor);
-  return fmt::format("{} by {} at {}", motor.name, quantity(found.deviation, motor.unit), quantity(found.at, "s"));
+  return fmt::format("{} by {} at {:.4g}\u00a0s", motor.name, quantity(found.deviation, motor.unit), found.at);
 }
 
 const char* inWords(Recipe recipe) {

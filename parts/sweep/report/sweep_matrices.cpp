@@ -91,7 +91,11 @@ std::string tiesTable(const SweepSummary& summary, const ShownColumns& shown, co
                       const std::string& caption, const TieOf& tie_of, const std::vector<HtmlValue>& without = {}) {
   const auto head = [&summary](std::size_t k) { return breakable(titleOf(summary.outputs[k])); };
   const auto row = [&](std::size_t p) {
-    const auto cell = [&](std::size_t k) { return tie_of(summary.outputs[k].relations[p]); };
+    const auto cell = [&](std::size_t k) {
+      HtmlValue out = tie_of(summary.outputs[k].relations[p]);
+      out["output"] = titleOf(summary.outputs[k]);
+      return out;
+    };
     return HtmlValue{{"key", keyWords(summary.parameters[p].key)}, {"cells", listOf(shown.outputs, cell)}};
   };
   return rendered(sweep_ties_html, {{"table", !shown.outputs.empty() && !shown.parameters.empty()},
@@ -148,7 +152,7 @@ std::string driversTable(const SweepSummary& summary) {
                      {"remark", strength(relation) > 0 ? "" : "no more than chance"}};
   };
   return rendered(sweep_drivers_html, {{"output", titleOf(output)},
-                                       {"together", togetherWords(summary, output)},
+                                       {"together", report::unbroken(togetherWords(summary, output))},
                                        {"more", more},
                                        {"has_index", has_index},
                                        {"rows", listOf(order, row)}}) +

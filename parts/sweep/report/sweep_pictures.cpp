@@ -96,11 +96,12 @@ std::string gridMaps(const SweepSummary& summary) {
   std::string out;
   for (const GridMap& map : summary.maps) {
     const SweepOutput& output = summary.outputs[map.output];
-    const std::string unit = report::prettyUnit(output.unit);
-    report::HeatMap drawn{titleOf(output) + (unit.empty() ? "" : ", " + unit),
+    report::HeatMap drawn{titleOf(output),
                           {keyWords(summary.parameters[0].key), map.x},
                           {keyWords(summary.parameters[1].key), map.y},
-                          {map.values.begin(), map.values.end()}};
+                          {map.values.begin(), map.values.end()},
+                          {},
+                          output.unit};
     const report::HeatScale scale(drawn.values, output.histogram.log);
     out += fmt::format(
         "<figure><svg class=\"static heat\" viewBox=\"0 30 {:.0f} {:.0f}\" role=\"img\" "

@@ -82,7 +82,10 @@ HtmlValue outputRow(const SweepSummary& summary, const SweepOutput& output) {
 HtmlValue worstRow(const SweepSummary& summary, const WorstPoint& point, const std::vector<std::size_t>& shown) {
   const Verdict verdict = shownVerdict(point.verdict);
   const bool judges = summary.identity.what == "validate";
-  const auto value = [&](std::size_t p) { return parameterText(summary.parameters[p], point.parameters[p]); };
+  const auto value = [&](std::size_t p) {
+    const SweepParameter& parameter = summary.parameters[p];
+    return HtmlValue{{"key", keyWords(parameter.key)}, {"value", parameterText(parameter, point.parameters[p])}};
+  };
   return {{"id", point.id},
           {"verdict", name(verdict)},
           {"badge", judges && point.verdict == name(verdict) ? report::verdictBadge(verdict) : ""},

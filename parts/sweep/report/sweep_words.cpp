@@ -33,11 +33,11 @@ std::string bareWords(const std::string& key) {
 
 /// The motor and point of a group's largest value, or only the point.
 std::string whereOf(const SweepSummary& summary, const SweepOutput& output) {
-  const std::string point = fmt::format("at point {}", output.worst_point);
+  const std::string point = fmt::format("at point\u00a0{}", output.worst_point);
   for (const SweepOutput& each : summary.outputs)
     if (output.kind == OutputKind::largest_effort && each.kind == OutputKind::effort && each.unit == output.unit &&
         each.spread.max == output.spread.max)
-      return fmt::format("of motor {} {}", each.motor + 1, point);
+      return fmt::format("of motor\u00a0{} {}", each.motor + 1, point);
   return point;
 }
 
@@ -124,7 +124,8 @@ std::string valueOf(const SweepOutput& output, double value) {
 
 std::string saidOf(const SweepOutput& output, double value) {
   const bool share = output.kind == OutputKind::check_share || output.kind == OutputKind::largest_share;
-  return valueOf(output, value) + (share ? " of its limit" : "");
+  if (share && value < 1) return report::percentText(value) + " of its limit";
+  return valueOf(output, value) + (share ? " times its limit" : "");
 }
 
 std::string breakable(const std::string& name) {
