@@ -64,10 +64,10 @@ std::optional<SeveralNamed> nameSet(const Pursuit& pursuit, const Mistakes& mist
     out.ties.insert(out.ties.end(), ties.begin(), ties.end());
     out.is_sure = out.is_sure && ties.empty();
     out.words += (out.together.empty() ? "" : out.together.size() + 1 == members.size() ? ", and " : ", ") + one.words;
-    out.words += percents < 0.1       ? " (less than 0.1 %)"
-                 : percents > 99.9999 ? " (more than 99.9999 %)"
-                 : percents > 99      ? fmt::format(" ({:.4f} %)", percents)
-                                      : fmt::format(" ({:.3g} %)", percents);
+    out.words += percents < 0.1       ? " (alone less than 0.1 %)"
+                 : percents > 99.9999 ? " (alone more than 99.9999 %)"
+                 : percents > 99      ? fmt::format(" (alone {:.4f} %)", percents)
+                                      : fmt::format(" (alone {:.3g} %)", percents);
     out.together.push_back(one.named.cause);
   }
   const auto order = std::find_if(out.together.begin(), out.together.end(),
