@@ -14,13 +14,13 @@ class Rus : public LegType {
         {{-Vector3d::UnitY()}, {-Vector3d::UnitY(), leg.proximal.length * Vector3d::UnitZ()}, {-Vector3d::UnitX()}}};
   }
 
-  /// Along û the leg appears as a triangle of crank l, rod c and r.
+  /// Along û the leg appears as a triangle of crank l, rod c and r. φ is the angle nearest to zero.
   Vector3d coordinates(const Leg& leg, const Matrix3d& frame, const Vector3d& AB) const override {
     const Vector3d k = frame.transpose() * AB;
     const double l = leg.proximal.length, s = leg.distal.length, side = sideOf(leg);
     const double c = std::sqrt((s - k.y()) * (s + k.y())), r = std::hypot(k.x(), k.z());
-    return {std::atan2(-k.x(), k.z()) - side * angleOpposite(c, l, r), side * (pi - angleOpposite(r, l, c)),
-            std::atan2(k.y(), c)};
+    const double phi = std::atan2(-k.x(), k.z()) - side * angleOpposite(c, l, r);
+    return {std::remainder(phi, 2 * pi), side * (pi - angleOpposite(r, l, c)), std::atan2(k.y(), c)};
   }
 
   /// Checks the distance from the crank's plane first, then the distance within it.

@@ -188,6 +188,13 @@ Vector6d rightMoment(const BodyView& b) { return momentOf(b.I, b.omega, b.alpha)
 
 }  // namespace
 
+bool isUnit(double factor) {
+  constexpr double degrees = 57.29577951308232;
+  for (const double known : {degrees, 1 / degrees, 1e3, 1e-3, 1e6, 1e-6, degrees * degrees, 1e9, 1e-9})
+    if (std::abs(factor / known - 1) < 1e-6) return true;
+  return false;
+}
+
 void addScaledTerm(const NamedCause& term, const ChangeOf& part, const std::string& detail, std::vector<Tried>& out) {
   const auto times = [part](double factor) {
     return [part, factor](const EffortResidual& data) { return VectorXd(factor * part(data)); };
@@ -205,9 +212,7 @@ void addScaledTerm(const NamedCause& term, const ChangeOf& part, const std::stri
   fitted.finish = [](const VectorXd& x, const VectorXd& uncertainty, NamedCause& named) {
     named.found = 1 + x(0);
     named.uncertainty = uncertainty(0);
-    constexpr double degrees = 57.29577951308232;
-    for (const double known : {degrees, 1 / degrees, 1e3, 1e-3, 1e6, 1e-6, degrees * degrees, 1e9, 1e-9})
-      if (std::abs(*named.found / known - 1) < 1e-6) named.kind = CauseKind::units;
+    if (isUnit(*named.found)) named.kind = CauseKind::units;
     return true;
   };
   out.push_back(fitted);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "parts/causes/mechanism_tried.h"
@@ -86,18 +87,20 @@ Tried oneNumber(const EffortResidual& data, std::size_t b, const std::string& ke
 }
 
 void addOneByOne(const EffortResidual& data, std::size_t b, double length, std::vector<Tried>& out) {
-  const BodyNumbers right = numbersOf(data.mechanism->bodies()[b]);
-  const double step = 1e-3 * length;
+  const MechanismBody& body = data.mechanism->bodies()[b];
+  const BodyNumbers right = numbersOf(body);
+  const double step = 1e-3 * length, away = body.center_of_mass.norm() + body.frame.translation().norm();
   out.push_back(oneNumber(data, b, "mass", "kg", right.mass, std::max(right.mass, 1e-3),
                           [](const VectorXd& x, BodyNumbers& numbers) { numbers.mass += x(0); }));
   for (int k = 0; k < 3; ++k)
-    out.push_back(oneNumber(data, b, fmt::format("center_of_mass.{}", k), "m", right.center(k), step,
+    out.push_back(oneNumber(data, b, fmt::format("center_of_mass.{}", k), "m", asWritten(right.center(k), away), step,
                             [k](const VectorXd& x, BodyNumbers& numbers) { numbers.center(k) += x(0); }));
   const double size = std::max(right.inertia.norm(), 1e-6 * length * length);
   for (int i = 0; i < 3; ++i)
     for (int j = i; j < 3; ++j)
-      out.push_back(oneNumber(data, b, fmt::format("inertia.{}{}", "xyz"[i], "xyz"[j]), "kg m^2", right.inertia(i, j),
-                              size, [i, j](const VectorXd& x, BodyNumbers& numbers) {
+      out.push_back(oneNumber(data, b, fmt::format("inertia.{}{}", "xyz"[i], "xyz"[j]), "kg m^2",
+                              asWritten(right.inertia(i, j), right.inertia.norm()), size,
+                              [i, j](const VectorXd& x, BodyNumbers& numbers) {
                                 numbers.inertia(i, j) += x(0);
                                 if (i != j) numbers.inertia(j, i) += x(0);
                               }));
@@ -191,6 +194,15 @@ void addGravity(const EffortResidual& data, std::vector<Tried>& out) {
 }
 
 }  // namespace
+
+double asWritten(double value, double size) {
+  constexpr int digits = 12, most_places = 22;  // ten to the power of 22 is a double
+  constexpr double roundings = 64;
+  if (!(size > 0)) return value;
+  const double unit = std::pow(10.0, std::min(digits - static_cast<int>(std::ceil(std::log10(size))), most_places));
+  const double near = std::round(value * unit) / unit;
+  return std::abs(near - value) <= roundings * rounding * size ? near + 0.0 : value;
+}
 
 VectorXd effortsOf(const Mechanism& mechanism, const Instant& at) {
   const VectorXd loads = loadsOf(mechanism, at);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/dense.h"
 #include "parts/causes/explanation.h"
 #include "parts/causes/few_digits.h"
 #include "parts/causes/mechanism_tried.h"
@@ -37,6 +38,7 @@ EffortResidual residualOf(const MechanismEvidence& evidence) {
     out.instants.push_back(instantAt(*evidence.motion, sample.motion.t));
     out.noc.segment(at, out.motors) = sample.noc;
     out.found.segment(at, out.motors) = sample.subject;
+    if (evidence.gives_accelerations) out.inertia.push_back(inverseOf(sample.inverse_inertia));
     for (Eigen::Index k = 0; k < out.motors; ++k) {
       const double growth = right(k) > 0 ? std::max(1.0, most(k) / right(k)) : 1;
       out.rounds(at + k) = growth * evidence.limit(sample, k) / evidence.efforts_in(k);
@@ -167,8 +169,8 @@ std::string deviationIn(const EffortResidual& data) {
 
 std::vector<Fitted> fittedCauses(const EffortResidual& data) {
   std::vector<Tried> tried;
-  for (const auto add :
-       {addEffortCauses, addClosureCauses, addJointTerms, addBodyCauses, addJointNumbers, addBodyNumbers})
+  for (const auto add : {addAccelerationCauses, addEffortCauses, addClosureCauses, addJointTerms, addBodyCauses,
+                         addJointNumbers, addBodyNumbers})
     add(data, tried);
   std::vector<Fitted> out = fitAll(tried, data);
   addDelay(data, out);
@@ -207,6 +209,8 @@ void addMechanismCause(const MechanismScenario&, const MechanismEvidence& eviden
         !(least != fitted.end() && nameSeveral(data, least->beyond, result)) && !nameWindow(data, result))
       listParts(fitted, data, result);
   }
+  result.terms = askedApart(evidence);
+  nameState(result);
   sayCause(result.cause_words.off, result);
 }
 

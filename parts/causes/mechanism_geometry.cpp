@@ -167,7 +167,7 @@ void addEntries(const Mover& mover, const Place& place, std::vector<Tried>& out)
   for (int k = 0; k < 3; ++k) {
     if (is_axis && std::abs(own(k)) > 0.99) continue;
     out.push_back(along(mover, place, frame.linear().col(k), fmt::format(".{}", k)));
-    setOneNumber(own(k), out.back());
+    setOneNumber(asWritten(own(k), is_axis ? 1 : mover.mechanism().length()), out.back());
     if (!is_axis) continue;
     out.back().finish = [own, k](const VectorXd& x, const VectorXd& uncertainty, NamedCause& named) {
       named.found = (own + x(0) * Vector3d::Unit(k)).normalized()(k);
@@ -198,7 +198,7 @@ void addLength(const Mover& mover, const Place& place, std::vector<Tried>& out) 
   tried.detail = "at joint '" + own.name + "'";
   tried.named.joint.clear();
   tried.named.parameter = "body." + tried.named.body + ".length";
-  setOneNumber(line.norm(), tried);
+  setOneNumber(asWritten(line.norm(), mechanism.length()), tried);
   out.push_back(std::move(tried));
 }
 

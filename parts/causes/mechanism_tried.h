@@ -20,6 +20,7 @@ struct EffortResidual {
   VectorXd noc, found;            ///< N·m or N
   VectorXd limit;                 ///< possible difference of right efforts: rounding and the file's digits
   VectorXd rounds;                ///< the part of it that is rounding
+  std::vector<MatrixXd> inertia;  ///< I of (34) at each instant, if the efforts come from a simulator's accelerations
   Eigen::Index motors = 1;
   double growth = 1;  ///< how many times larger the found efforts are than what rounds in the right ones
 
@@ -76,7 +77,15 @@ void addJointTerms(const EffortResidual& data, std::vector<Tried>& out);
 void addJointNumbers(const EffortResidual& data, std::vector<Tried>& out);
 void addClosureCauses(const EffortResidual& data, std::vector<Tried>& out);
 void addEffortCauses(const EffortResidual& data, std::vector<Tried>& out);
+/// Wrong accelerations of a simulator: their scale, sign, unit, and order of the motors.
+void addAccelerationCauses(const EffortResidual& data, std::vector<Tried>& out);
 void addDelay(const EffortResidual& data, std::vector<Fitted>& out);
+
+/// Whether a factor turns one usual unit into another: degrees, thousandths.
+bool isUnit(double factor);
+/// The number of at most twelve digits from which roundings of terms as large as `size` have moved a value, as changes
+/// of axes do to a file's numbers; the value itself if there is none.
+double asWritten(double value, double size);
 
 /// Adds (1 + x) times a term; 0 is left out and −1 has the wrong sign, which are mistakes without numbers.
 void addScaledTerm(const NamedCause& term, const ChangeOf& part, const std::string& detail, std::vector<Tried>& out);
@@ -118,6 +127,10 @@ bool nameSeveral(const EffortResidual& data, double left, ValidationResult& resu
 
 /// Fits by least squares, Gauss–Newton if the efforts are not linear in the numbers. Drops what has no effect.
 std::vector<Fitted> fitAll(const std::vector<Tried>& tried, const EffortResidual& data);
+
+/// The errors of a solver's answers to questions at rest, with accelerations alone, and with rates alone; empty if it
+/// cannot be asked.
+std::vector<TermError> askedApart(const MechanismEvidence& evidence);
 
 /// "the mass of 'coupler' is 2.31 kg instead of 2.1 kg".
 std::string inWords(const Fitted& cause);

@@ -36,6 +36,7 @@ std::string termWords(const std::string& term) {
                                                               {"coriolis", "the velocity-product term"},
                                                               {"centripetal", "the acceleration by velocities"},
                                                               {"inertia", "the inertia"},
+                                                              {"acceleration", "the acceleration"},
                                                               {"friction", "the friction"},
                                                               {"rotor_inertia", "the armature"},
                                                               {"springs", "the springs' force"},
@@ -126,7 +127,8 @@ std::string orderWords(const NamedCause& cause) {
       out += fmt::format("{}column {} holds motor {}", out.empty() ? "" : ", ", i + 1, cause.legs[i]);
   for (std::size_t i = 0; i < cause.signs.size(); ++i)
     if (cause.signs[i] < 0) out += fmt::format("{}column {} has the wrong sign", out.empty() ? "" : ", ", i + 1);
-  return "the motors are in another order: " + out;
+  const char* of = cause.term.empty() ? "the motors" : "the motors' accelerations";
+  return of + std::string(" are in another order: ") + out;
 }
 
 std::string causeWords(const NamedCause& cause) {

@@ -1,16 +1,20 @@
 // The graph that the writers are given: closed at every leg, with what the scenario has, and refused where a leg
 // cannot.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "nocsolver/noc/noc.h"
 #include "parts/exchange/leg_pose.h"
 #include "parts/exchange/write/export.h"
 #include "parts/exchange/write/xml_text.h"
 #include "tests/exchange/export_support.h"
+#include "tests/exchange/read_mechanism.h"
 
 namespace ursula::exchange {
 namespace {
@@ -34,6 +38,42 @@ TEST(ExportGraph, LegsReachThePlatform) {
       }
     }
   }
+}
+
+/// The angle of a crank before it is brought within half a turn.
+double sumOfAngles(const Leg& leg, const Vector3d& tip) {
+  const Vector3d k = chainOf(leg).frame.transpose() * (tip - leg.base_point);
+  const double l = leg.proximal.length, c = std::sqrt(leg.distal.length * leg.distal.length - k.y() * k.y());
+  const double r = std::hypot(k.x(), k.z()), side = leg.knee == Knee::positive ? 1 : -1;
+  return std::atan2(-k.x(), k.z()) - side * std::acos((l * l + r * r - c * c) / (2 * l * r));
+}
+
+/// Motions of motors that `inverse` writes continue the file's pose: no coordinate is a whole turn off.
+TEST(ExportGraph, CoordinatesAreThoseOfInverseAndReadBackSo) {
+  int scenarios = 0, beyond_half_a_turn = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(URSULA_SOURCE "/scenarios")) {
+    if (entry.path().extension() != ".toml") continue;
+    const Scenario scenario = readScenario(entry.path());
+    const Motion<double> pose = scenario.trajectory->at(0);
+    const Noc<double> noc(*scenario.manipulator);
+    NocWorkspace<double> work;
+    noc.inverseKinematics(pose, work);
+    const JointVariables<double> q = noc.angles(work);
+    const ModelRead read = mechanismOf("turns.xml", textOf(scenario, ModelFormat::mjcf));
+    for (int i = 0; i < scenario.manipulator->legCount(); ++i) {
+      const Leg& leg = scenario.manipulator->leg(i);
+      if (leg.kind == LegKind::RUS && std::abs(sumOfAngles(leg, pose.p + pose.Q * leg.platform_point)) > M_PI)
+        ++beyond_half_a_turn;
+      for (const Coordinate coordinate : rowOf(leg.kind).coordinates) {
+        if (isInBall(leg, coordinate)) continue;
+        const std::string name = fmt::format("leg_{}_{}", i + 1, nameOf(coordinate));
+        EXPECT_NEAR(jointOf(read, name).position, q.of(coordinate)(i), 1e-12) << entry.path() << ' ' << name;
+      }
+    }
+    ++scenarios;
+  }
+  EXPECT_GT(scenarios, 30);
+  EXPECT_GT(beyond_half_a_turn, 0) << "or no scenario shows the turn";
 }
 
 TEST(ExportGraph, OutOfReachNamesTheLegAndTheNumber) {

@@ -104,14 +104,10 @@ std::vector<MotorEfforts> answersOf(const MechanismSubject& subject, bool betwee
 }
 
 void setUnits(const Mechanism& mechanism, MechanismEvidence& out) {
-  const auto n = static_cast<Eigen::Index>(mechanism.motorCount());
-  Eigen::Index slide = 0;
-  for (Eigen::Index k = 0; k < n; ++k) slide += mechanism.motor(k).slides() ? 1 : 0;
-  out.efforts_in = MotorEfforts::Ones(n);
-  out.unit = slide == n ? "N" : "N m";
-  if (slide == n || slide == 0) return;
-  for (Eigen::Index k = 0; k < n; ++k)
-    if (mechanism.motor(k).slides()) out.efforts_in(k) = mechanism.length();
+  out.efforts_in = effortsInOneUnit(mechanism);
+  bool all_slide = true;
+  for (std::size_t k = 0; k < mechanism.motorCount(); ++k) all_slide = all_slide && mechanism.motor(k).slides();
+  out.unit = all_slide ? "N" : "N m";
 }
 
 /// The largest change of the efforts within a time of an instant, as rounded stamps of time leave it open.
@@ -227,6 +223,14 @@ void setCover(const MechanismSubject& subject, const std::vector<double>& instan
 
 }  // namespace
 
+MotorEfforts effortsInOneUnit(const Mechanism& mechanism) {
+  const auto n = static_cast<Eigen::Index>(mechanism.motorCount());
+  MotorEfforts out = MotorEfforts::Ones(n);
+  for (Eigen::Index k = 0; k < n; ++k)
+    if (mechanism.motor(k).slides()) out(k) = mechanism.length();
+  return (out.array() == mechanism.length()).all() ? MotorEfforts(MotorEfforts::Ones(n)) : out;
+}
+
 MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopMotion& motion,
                                   const MechanismSubject& subject, const std::vector<MakeMechanismEngine>& makers,
                                   const Deadline& deadline, const std::function<void(double share)>& progress) {
@@ -252,6 +256,8 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
     return out;
   }
   measureLevels(out);
+  out.gives_accelerations = subject.gives_accelerations;
+  if (!subject.gives_accelerations) out.ask = subject.answers;
   if (subject.gives_accelerations)
     for (std::vector<MechanismSample>* samples : {&out.samples, &out.between})
       for (MechanismSample& sample : *samples) sample.given = roundedAccelerations(out, sample);

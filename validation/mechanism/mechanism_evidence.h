@@ -147,7 +147,10 @@ struct MechanismEvidence {
   double largest = 0;             ///< effort along the motion, in the shown unit
   std::string unit;               ///< "N m", or "N" if all motors slide
   std::string not_replayed, out_of_time;
-  Cover cover;  ///< by a file's rows; of other subjects only the widest gap
+  bool gives_accelerations = false;  ///< as in MechanismSubject
+  /// A solver, to be asked for terms apart; empty if the subject is none.
+  std::function<std::vector<MotorEfforts>(const std::vector<MechanismQuestion>&)> ask;
+  Cover cover;                       ///< by a file's rows; of other subjects only the widest gap
 
   /// The growth of rounding in an effort of motor k with pose and machine, in the shown unit.
   double shape(const MechanismSample& sample, Eigen::Index k) const;
@@ -162,6 +165,9 @@ struct MechanismEvidence {
   /// The largest level of Simbody's trees.
   double levelOfSimbody() const;
 };
+
+/// What turns each motor's effort into the unit that is shown: 1, or the machine's length for a slide beside hinges.
+MotorEfforts effortsInOneUnit(const Mechanism& mechanism);
 
 /// Runs all experiments. After the deadline, it returns what was complete by then and why the rest is missing.
 MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopMotion& motion,

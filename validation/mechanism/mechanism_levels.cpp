@@ -69,6 +69,19 @@ void measureMotion(const MechanismSample& sample, const MotorMotion& moved, Mech
       evidence.motion_level = std::max(evidence.motion_level, safety * change(k) * evidence.efforts_in(k) / shape);
 }
 
+/// The efforts at an instant of an engine that stands at the motion's end. Straight from there the loops may lead
+/// through a singular pose, which the motion avoids: then it goes back along the samples.
+MotorEfforts askedAgain(const MechanismEngine& engine, const MotorMotion& motion,
+                        const std::vector<MechanismSample>& samples) {
+  try {
+    return engine.efforts(motion);
+  } catch (const std::domain_error&) {
+    for (auto sample = samples.rbegin(); sample != samples.rend() && sample->motion.t >= motion.t; ++sample)
+      engine.efforts(sample->motion);
+    return engine.efforts(motion);
+  }
+}
+
 }  // namespace
 
 void measureLevels(MechanismEvidence& evidence) {
@@ -77,7 +90,7 @@ void measureLevels(MechanismEvidence& evidence) {
     measureMotion(*sample, moved, evidence);
     for (std::size_t e = 0; e < evidence.engines.size(); ++e) {
       MechanismEngine& engine = evidence.engines[e];
-      const MotorEfforts change = engine.efforts(moved) - sample->engines[e];
+      const MotorEfforts change = askedAgain(engine, moved, evidence.samples) - sample->engines[e];
       for (Eigen::Index k = 0; k < change.size(); ++k)
         if (const double shape = evidence.shape(*sample, k); shape > 0)
           engine.level = std::max(engine.level, safety * std::abs(change(k)) * evidence.efforts_in(k) / shape);

@@ -129,6 +129,7 @@ std::string whyNotOf(const CheckRow& row, const MechanismSubject& subject, const
   if (!evidence.not_replayed.empty() && (isOf(check, "replay") || isOf(check, "closure"))) return evidence.not_replayed;
   if (wasLeft(check, subject, evidence)) return "";
   if (name == "energy.power") return "no motor moves where the loops can follow to both sides";
+  if (name == "energy.balance") return "energy.power judges machines of this kind by their energies";
   for (const char* of_paths : {"feedback", "integration", "energy", "motion", "fast", "reactions"})
     if (isOf(check, of_paths)) return "not made for machines of this kind";
   if (name == "kinematics.joint_angles" || name == "kinematics.joint_rates" || name == "kinematics.joint_accelerations")
@@ -207,9 +208,9 @@ void addFacts(const MechanismAlong& along, const MechanismSubject& subject, cons
 
 /// How often the subject is asked. A solver may be slow: at most 2,000 times, unless somebody wants it thorough.
 MechanismSubject asAsked(MechanismSubject subject, const MechanismOptions& options) {
-  constexpr int between_if_thorough = 8192, most_questions = 2000;
+  constexpr int between_if_thorough = 8192, most_questions = 2000, for_terms = 30;
   if (subject.answers && options.thorough) subject.between = between_if_thorough;
-  if (subject.answers && !options.thorough) subject.most_samples = most_questions - subject.between;
+  if (subject.answers && !options.thorough) subject.most_samples = most_questions - subject.between - for_terms;
   if (options.quick) subject.between = 0;
   return subject;
 }

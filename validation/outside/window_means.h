@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -31,11 +32,11 @@ class WindowMeans {
     return sum / weights;
   }
 
-  /// Centres whose windows are within the motion, away from its ends, where a spline is less exact.
-  std::vector<double> centres() const {
-    constexpr int most_centres = 301;
+  /// Centres whose windows are within the motion, away from its ends, where a spline is less exact; no more than rows.
+  std::vector<double> centres(std::size_t rows) const {
+    constexpr std::size_t most_centres = 301;
     const double first = t_.front() + 1.5 * half_, last = t_.back() - 1.5 * half_;
-    std::vector<double> out = equallySpaced(last - first, std::min<int>(most_centres, static_cast<int>(t_.size())));
+    std::vector<double> out = equallySpaced(last - first, static_cast<int>(std::min(most_centres, rows)));
     for (double& t : out) t += first;
     return out;
   }
