@@ -16,7 +16,7 @@ struct Quantity {
 constexpr Quantity quantities[] = {Quantity{"tau", "effort of motor"},
                                    {"noc_tau", "NOC's effort of motor"},
                                    {"simbody_tau", "Simbody's effort of motor"},
-                                   {"error_tau", "largest deviation of an effort"},
+                                   {"error_tau", "largest deviation of the efforts"},
                                    {"limit_tau", "limit of the effort of motor"},
                                    {"phi", "angle φ of leg"},
                                    {"psi", "angle ψ of leg"},

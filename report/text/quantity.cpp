@@ -85,8 +85,9 @@ SideBySide sideBySide(const std::vector<double>& values, const std::string& unit
   double largest = 0;
   for (const double value : values)
     if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  const auto [size, pretty] = prefixed(largest, unit, digits);
-  SideBySide out{{}, pretty};
+  const std::pair<double, std::string> in = prefixed(largest, unit, digits);
+  const double size = in.first;
+  SideBySide out{{}, in.second};
   const double shown = roundedTo(largest, digits) / size;
   const bool is_plain = shown == 0 || (shown >= 1e-3 && shown < 1e6);
   int decimals = shown == 0 ? 0 : std::max(0, digits - 1 - static_cast<int>(std::floor(std::log10(shown) + 1e-9)));

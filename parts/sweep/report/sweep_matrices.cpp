@@ -8,6 +8,7 @@
 
 #include "parts/sweep/report/sweep_outputs.h"
 #include "report/page/html_template.h"
+#include "report/text/quantity.h"
 
 namespace ursula {
 
@@ -78,8 +79,9 @@ std::string leftOut(const ShownColumns& shown) {
 }
 
 /// A number of a table of ties, in words too; `told` if it differs from chance.
-HtmlValue tie(double value, bool told, const std::string& text) {
-  return {{"told", told && !std::isnan(value)},
+HtmlValue tie(const SweepOutput& output, double value, bool told, const std::string& text) {
+  return {{"output", titleOf(output)},
+          {"told", told && !std::isnan(value)},
           {"minus", value < 0},
           {"depth", fmt::format("{:.0f}", 5 + 40 * std::min(1.0, std::abs(value)))},
           {"text", std::isnan(value) ? "–" : text}};
@@ -91,11 +93,7 @@ std::string tiesTable(const SweepSummary& summary, const ShownColumns& shown, co
                       const std::string& caption, const TieOf& tie_of, const std::vector<HtmlValue>& without = {}) {
   const auto head = [&summary](std::size_t k) { return breakable(titleOf(summary.outputs[k])); };
   const auto row = [&](std::size_t p) {
-    const auto cell = [&](std::size_t k) {
-      HtmlValue out = tie_of(summary.outputs[k].relations[p]);
-      out["output"] = titleOf(summary.outputs[k]);
-      return out;
-    };
+    const auto cell = [&](std::size_t k) { return tie_of(summary.outputs[k], summary.outputs[k].relations[p]); };
     return HtmlValue{{"key", keyWords(summary.parameters[p].key)}, {"cells", listOf(shown.outputs, cell)}};
   };
   return rendered(sweep_ties_html, {{"table", !shown.outputs.empty() && !shown.parameters.empty()},
@@ -164,8 +162,8 @@ std::string correlationTable(const SweepSummary& summary) {
                    "Rank correlations (Spearman), from −1 to +1: a deeper colour is stronger; blue rises, orange "
                    "falls. Pale numbers do not differ from chance: they are below the bound that one in a hundred "
                    "sweeps of unrelated numbers would exceed anywhere.",
-                   [](const Relation& relation) {
-                     return tie(relation.spearman, relation.correlates, signedNumber(relation.spearman));
+                   [](const SweepOutput& output, const Relation& relation) {
+                     return tie(output, relation.spearman, relation.correlates, signedNumber(relation.spearman));
                    });
 }
 
@@ -192,8 +190,8 @@ std::string indexTable(const SweepSummary& summary) {
   return tiesTable(
       summary, shown, "First-order indices",
       "First-order Sobol’ indices: the share of an output’s variance that each number explains alone. " + how,
-      [](const Relation& relation) {
-        return tie(relation.first_order, relation.acts, shareNumber(relation.first_order));
+      [](const SweepOutput& output, const Relation& relation) {
+        return tie(output, relation.first_order, relation.acts, shareNumber(relation.first_order));
       },
       listOf(without, reason));
 }
