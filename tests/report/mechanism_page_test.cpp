@@ -116,8 +116,8 @@ TEST(MechanismPage, beginsWithTheWorstMotor) {
   const ValidationResult wrong = sampleOf(1.01);
   const std::string said = report::sentence(wrong);
   EXPECT_TRUE(contains(said, "crank_hinge was given ")) << said;
-  EXPECT_TRUE(contains(said, "3.03 N·m where 3 N·m is expected") ||
-              contains(said, "3.03\u00a0N·m where 3\u00a0N·m is expected"))
+  EXPECT_TRUE(contains(said, "3.03 N·m where 3.00 N·m is expected") ||
+              contains(said, "3.03\u00a0N·m where 3.00\u00a0N·m is expected"))
       << said;
   EXPECT_TRUE(contains(said, "(1\u00a0% of the largest)")) << said;
   EXPECT_FALSE(contains(report::sentence(sampleOf(1)), "crank_hinge")) << "of right efforts none is the worst";
