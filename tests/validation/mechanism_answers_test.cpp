@@ -80,7 +80,8 @@ TEST_P(MechanismAnswers, TermsAskedApartShowWhichIsOff) {
   for (const char* right : {"statics", "acceleration", "velocity"}) EXPECT_LT(errorOf(odd, right), 1e-9) << right;
 }
 
-TEST_P(MechanismAnswers, OfAnEarlierQuestionAreState) {
+TEST(SolverWithMemory, IsNamedByItsState) {
+  const Machine machine("fourbar");
   const SolverOf right(machine, machine.parameters());
   MotorEfforts before = MotorEfforts::Zero(static_cast<Eigen::Index>(machine.mechanism().motorCount()));
   const ValidationResult result = judgeSolver(machine, [&](const MechanismQuestion& question) {

@@ -150,7 +150,7 @@ struct MechanismEvidence {
   bool gives_accelerations = false;  ///< as in MechanismSubject
   /// A solver, to be asked for terms apart; empty if the subject is none.
   std::function<std::vector<MotorEfforts>(const std::vector<MechanismQuestion>&)> ask;
-  Cover cover;                       ///< by a file's rows; of other subjects only the widest gap
+  Cover cover;  ///< by a file's rows; of other subjects only the widest gap
 
   /// The growth of rounding in an effort of motor k with pose and machine, in the shown unit.
   double shape(const MechanismSample& sample, Eigen::Index k) const;
