@@ -10,15 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "python/made.h"
 #include "python/motion.h"
-#include "python/result.h"
 #include "python/words.h"
-
-template <>
-class pybind11::detail::type_caster<ursula::Comparison> : public ursula::python::MadeCaster<ursula::Comparison> {};
-template <>
-class pybind11::detail::type_caster<ursula::ChannelComparison>
-    : public ursula::python::MadeCaster<ursula::ChannelComparison> {};
 
 namespace ursula::python {
 namespace py = pybind11;
@@ -87,9 +81,7 @@ void addChannel(py::module_& module) {
       .def_readonly("final_error", &Channel::final_error)
       .def_readonly("outside", &Channel::outside, "The largest distance beyond the tube around the reference.")
       .def_readonly("interpolation", &Channel::interpolation, "The largest error of interpolating the reference.")
-      .def_property_readonly(
-          "verdict", [](const Channel& self) { return ursula::name(self.verdict); },
-          "\"pass\", \"fail\" or \"inconclusive\".")
+      .def_property_readonly("verdict", &verdictOf<Channel>, "\"pass\", \"fail\" or \"inconclusive\".")
       .def("__repr__", [](const Channel& self) {
         return "<ursula.Channel " + self.name + ": " + ursula::name(self.verdict) + ">";
       });
@@ -100,9 +92,7 @@ void addChannel(py::module_& module) {
 void addComparison(py::module_& module) {
   addChannel(module);
   py::class_<Comparison>(module, "Comparison", words::comparison)
-      .def_property_readonly(
-          "verdict", [](const Comparison& self) { return ursula::name(self.verdict); },
-          "\"pass\", \"fail\" or \"inconclusive\".")
+      .def_property_readonly("verdict", &verdictOf<Comparison>, "\"pass\", \"fail\" or \"inconclusive\".")
       .def_property_readonly(
           "channels", [](const Comparison& self) { return self.channels; },
           "The channels that both have, in the reference's order: a list of Channel.")

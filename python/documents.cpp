@@ -21,8 +21,6 @@ namespace {
 
 constexpr const char *from_dict = "<dict>", *from_text = "<text>";
 
-std::string typeOf(const py::handle& value) { return py::str(py::type::of(value).attr("__name__")); }
-
 [[noreturn]] void refuse(const std::string& place, const std::string& what) {
   throw ScenarioError(std::string(from_dict) + ": error: " + (place.empty() ? "" : place + ": ") + what);
 }
@@ -131,10 +129,7 @@ py::list assumptionsOf(const ScenarioWithSolver& self) {
 void addDocuments(py::module_& module, ScenarioClass& scenario) {
   scenario
       .def(
-          "to_dict",
-          [](const ScenarioWithSolver& self) {
-            return py::module_::import("json").attr("loads")(scenarioJson(self.scenario));
-          },
+          "to_dict", [](const ScenarioWithSolver& self) { return fromJson(scenarioJson(self.scenario)); },
           words::to_dict)
       .def(
           "to_toml", [](const ScenarioWithSolver& self) { return self.scenario.text; }, words::to_toml)

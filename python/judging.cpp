@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "python/bindings.h"
+#include "python/made.h"
 #include "python/motion.h"
-#include "python/result.h"
 #include "python/words.h"
 
 namespace ursula::python {
@@ -74,8 +74,7 @@ ValidationResult ofSolver(const Scenario& scenario, const Asked& asked) {
 std::vector<Vector6d> accelerationsOf(const py::object& answer, const std::vector<Motion<double>>& states) {
   const auto instant = [&states](std::size_t k) { return states[k].t; };
   if (!py::isinstance<py::sequence>(answer) || py::len(answer) != 2)
-    throw py::value_error("the simulator's answer" + std::string(" is of type ") +
-                          std::string(py::str(py::type::of(answer).attr("__name__"))) +
+    throw py::value_error("the simulator's answer is of type " + typeOf(answer) +
                           ", expected a pair (a, alpha), each (N, 3)");
   const py::sequence pair(answer);
   const py::array_t<double> linear = answerOf(pair[0], states.size(), 3, instant, "simulator", "acceleration"),
@@ -134,8 +133,7 @@ ValidationResult validatedAny(const py::object& s, const py::object& solver, con
   requirePositive("atol", atol);
   requirePositive("time_limit", time_limit);
   if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0)
-    throw py::type_error("validate: progress is of type " +
-                         std::string(py::str(py::type::of(progress).attr("__name__"))) +
+    throw py::type_error("validate: progress is of type " + typeOf(progress) +
                          ", expected a function of a share from 0 to 1 and a text");
   if (thorough && quick) throw py::type_error("validate: thorough and quick are given, expected one of them");
   if (!solver.is_none() && !torques.is_none())
@@ -190,7 +188,7 @@ TorqueFile torquesAt(const ScenarioWithSolver& given, const py::object& torques,
 
 void requireScenario(const char* function, const py::object& given, const char* expected) {
   if (py::isinstance<ScenarioWithSolver>(given)) return;
-  const std::string text = py::repr(given), type = py::str(py::type::of(given).attr("__name__"));
+  const std::string text = py::repr(given), type = typeOf(given);
   throw py::type_error(std::string(function) + ": s is " +
                        (given.is_none() ? text : (text.size() < 60 ? text : "a value") + " of type " + type) +
                        ", expected " + expected);

@@ -5,7 +5,6 @@
 #include <ursula/scenario.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -96,20 +95,8 @@ std::shared_ptr<MechanismWithSolver> warnedOf(const Read& read) {
   } catch (const InputError& error) {
     throw ScenarioError(error.what());
   }
-  const Locked locked;
-  for (const std::string& line : out->scenario.read.warnings)
-    if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 2) != 0) throw py::error_already_set();
+  warnOf(out->scenario.read.warnings);
   return out;
-}
-
-py::tuple stateOf(const MechanismWithSolver& self) {
-  return py::make_tuple(self.scenario.text, std::filesystem::absolute(self.scenario.file).string());
-}
-
-std::shared_ptr<MechanismWithSolver> ofState(const py::tuple& state) {
-  const auto text = state[0].cast<std::string>(), file = state[1].cast<std::string>();
-  const Unlocked unlocked;
-  return std::make_shared<MechanismWithSolver>(parseMechanism(text, file));
 }
 
 void addBody(py::module_& module) {
@@ -198,7 +185,8 @@ void addMechanism(py::module_& module) {
   addMechanismMotion(module);
   py::class_<S, std::shared_ptr<S>> scenario(module, "MechanismScenario", words::mechanism_scenario);
   addCopies(scenario);
-  scenario.def(py::pickle(&stateOf, &ofState))
+  scenario
+      .def(pickledText<S>([](const std::string& text, const std::string& file) { return parseMechanism(text, file); }))
       .def_property_readonly(
           "name", [](const S& self) { return self.scenario.name; }, "The name that the file gives.")
       .def_property_readonly(
@@ -220,10 +208,7 @@ void addMechanism(py::module_& module) {
       .def("forward_dynamics", &directDynamics, py::arg("m"), py::arg("tau"), words::mechanism_direct_dynamics)
       .def("direct_kinematics", &directKinematics, py::arg("coordinates"), words::mechanism_direct_kinematics)
       .def(
-          "to_dict",
-          [](const S& self) {
-            return py::module_::import("json").attr("loads")(scenarioJson(self.scenario.text, self.scenario.file));
-          },
+          "to_dict", [](const S& self) { return fromJson(scenarioJson(self.scenario.text, self.scenario.file)); },
           words::to_dict)
       .def(
           "to_toml", [](const S& self) { return self.scenario.text; }, words::to_toml)

@@ -42,20 +42,6 @@ struct MechanismMotion {
   MotorMotion at(Eigen::Index row) const { return {t(row), q.row(row), qdot.row(row), qddot.row(row)}; }
 };
 
-}  // namespace ursula::python
-
-template <>
-class pybind11::detail::type_caster<ursula::python::MechanismWithSolver>
-    : public ursula::python::MadeCaster<ursula::python::MechanismWithSolver> {};
-template <>
-class pybind11::detail::type_caster<ursula::python::MechanismMotion>
-    : public ursula::python::MadeCaster<ursula::python::MechanismMotion> {};
-template <>
-class pybind11::detail::type_caster<ursula::MechanismBody> : public ursula::python::MadeCaster<ursula::MechanismBody> {
-};
-
-namespace ursula::python {
-
 /// Reads or parses a scenario with [mechanism], and warns (UserWarning) of what is odd in its model. Is called without
 /// Python's lock. Throws ScenarioError.
 std::shared_ptr<MechanismWithSolver> mechanismOf(const std::filesystem::path& file);

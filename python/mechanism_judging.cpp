@@ -9,16 +9,14 @@
 
 #include "python/bindings.h"
 #include "python/judging.h"
+#include "python/made.h"
 #include "python/motion.h"
-#include "python/result.h"
 
 namespace ursula::python {
 namespace py = pybind11;
 namespace {
 
 std::string atInstant(double t) { return " at t = " + shown(t) + " s"; }
-
-std::string typeOf(const py::object& value) { return py::str(py::type::of(value).attr("__name__")); }
 
 MechanismOptions optionsOf(const ValidationOptions& options) {
   MechanismOptions out;

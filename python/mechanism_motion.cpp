@@ -37,31 +37,19 @@ auto columns(Rows MechanismMotion::*which) {
   };
 }
 
-MechanismMotion chosen(const MechanismMotion& motion, const std::vector<Eigen::Index>& rows) {
+template <class Which>
+MechanismMotion chosen(const MechanismMotion& motion, const Which& which) {
+  const std::vector<std::size_t> rows = pickedRows(motion.t.size(), which);
   MechanismMotion out = MechanismMotion::of(static_cast<Eigen::Index>(rows.size()), motion.q.cols(), motion.names);
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const auto to = static_cast<Eigen::Index>(k);
-    out.t(to) = motion.t(rows[k]);
+    const auto to = static_cast<Eigen::Index>(k), from = static_cast<Eigen::Index>(rows[k]);
+    out.t(to) = motion.t(from);
     for (Rows MechanismMotion::*each :
          {&MechanismMotion::q, &MechanismMotion::qdot, &MechanismMotion::qddot, &MechanismMotion::joints,
           &MechanismMotion::joint_rates, &MechanismMotion::joint_accelerations})
-      (out.*each).row(to) = (motion.*each).row(rows[k]);
+      (out.*each).row(to) = (motion.*each).row(from);
   }
   return out;
-}
-
-MechanismMotion instantOf(const MechanismMotion& motion, py::ssize_t k) {
-  const py::ssize_t count = motion.t.size();
-  if (k < -count || k >= count) throw py::index_error("no such row of the motion");
-  return chosen(motion, {k < 0 ? k + count : k});
-}
-
-MechanismMotion sliceOf(const MechanismMotion& motion, const py::slice& which) {
-  std::size_t start = 0, stop = 0, step = 0, count = 0;
-  if (!which.compute(motion.t.size(), &start, &stop, &step, &count)) throw py::error_already_set();
-  std::vector<Eigen::Index> rows;
-  for (std::size_t k = 0; k < count; ++k, start += step) rows.push_back(static_cast<Eigen::Index>(start));
-  return chosen(motion, rows);
 }
 
 py::array_t<double> copyOf(const Rows& rows) { return py::array_t<double>({rows.rows(), rows.cols()}, rows.data()); }
@@ -133,8 +121,8 @@ void addMechanismMotion(py::module_& module) {
       .def_property_readonly("joint_accelerations", columns(&M::joint_accelerations),
                              "Their accelerations, by the same names: each (N,).")
       .def("__len__", [](const M& motion) { return motion.t.size(); })
-      .def("__getitem__", &instantOf, py::arg("row"))
-      .def("__getitem__", &sliceOf, py::arg("rows"))
+      .def("__getitem__", &chosen<py::ssize_t>, py::arg("row"))
+      .def("__getitem__", &chosen<py::slice>, py::arg("rows"))
       .def("__repr__", [](const M& motion) {
         const Eigen::Index count = motion.t.size();
         return "<ursula.MechanismMotion of " + std::to_string(count) + (count == 1 ? " instant>" : " instants>");

@@ -109,21 +109,28 @@ Motions motionsFrom(const py::object& t, const py::object& p, const py::object& 
   return out;
 }
 
-Motions row(const Motions& motion, py::ssize_t k) {
-  const auto count = static_cast<py::ssize_t>(motion.rows.size());
-  if (k < -count || k >= count) throw py::index_error("no such row of the motion");
-  return {{motion.rows[k < 0 ? k + count : k]}};
-}
-
-Motions slice(const Motions& motion, const py::slice& which) {
-  std::size_t start = 0, stop = 0, step = 0, count = 0;
-  if (!which.compute(motion.rows.size(), &start, &stop, &step, &count)) throw py::error_already_set();
+template <class Which>
+Motions chosen(const Motions& motion, const Which& which) {
   Motions out;
-  for (std::size_t k = 0; k < count; ++k, start += step) out.rows.push_back(motion.rows[start]);
+  for (const std::size_t k : pickedRows(motion.rows.size(), which)) out.rows.push_back(motion.rows[k]);
   return out;
 }
 
 }  // namespace
+
+std::vector<std::size_t> pickedRows(std::size_t count, py::ssize_t row) {
+  const auto all = static_cast<py::ssize_t>(count);
+  if (row < -all || row >= all) throw py::index_error("no such row of the motion");
+  return {static_cast<std::size_t>(row < 0 ? row + all : row)};
+}
+
+std::vector<std::size_t> pickedRows(std::size_t count, const py::slice& which) {
+  std::size_t start = 0, stop = 0, step = 0, picked = 0;
+  if (!which.compute(count, &start, &stop, &step, &picked)) throw py::error_already_set();
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < picked; ++k, start += step) out.push_back(start);
+  return out;
+}
 
 py::array view(const py::object& self, const double* first, std::vector<py::ssize_t> shape,
                std::vector<py::ssize_t> strides) {
@@ -193,8 +200,8 @@ void addMotion(py::module_& module) {
       .def_property_readonly("a", member(&M::p_ddot, {3}, {size}), "Acceleration of P in B, m/s²: (N, 3).")
       .def_property_readonly("alpha", member(&M::omega_dot, {3}, {size}), "Angular acceleration in B, rad/s²: (N, 3).")
       .def("__len__", [](const Motions& motion) { return motion.rows.size(); })
-      .def("__getitem__", &row, py::arg("row"))
-      .def("__getitem__", &slice, py::arg("rows"))
+      .def("__getitem__", &chosen<py::ssize_t>, py::arg("row"))
+      .def("__getitem__", &chosen<py::slice>, py::arg("rows"))
       .def("__repr__", [](const Motions& motion) {
         const std::size_t count = motion.rows.size();
         return "<ursula.Motion of " + std::to_string(count) + (count == 1 ? " instant>" : " instants>");

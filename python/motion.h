@@ -17,14 +17,6 @@ struct Motions {
   std::vector<Motion<double>> rows;
 };
 
-}  // namespace ursula::python
-
-template <>
-class pybind11::detail::type_caster<ursula::python::Motions>
-    : public ursula::python::MadeCaster<ursula::python::Motions> {};
-
-namespace ursula::python {
-
 /// A read-only view of the numbers from `first` on, in bytes of strides; it keeps `self`, which has them, alive.
 pybind11::array view(const pybind11::object& self, const double* first, std::vector<pybind11::ssize_t> shape,
                      std::vector<pybind11::ssize_t> strides);

@@ -10,101 +10,33 @@
 
 namespace ursula::python {
 
-// Every member is named, so that a new one causes a compiler error here.
+/// Traverses a struct. Every member is named, so that a new one causes a compiler error here.
+#define URSULA_MEMBERS(Type, ...)                      \
+  inline void members(Archive& archive, Type& whole) { \
+    auto& [__VA_ARGS__] = whole;                       \
+    archive(__VA_ARGS__);                              \
+  }
 
-inline void members(Archive& archive, Largest& largest) {
-  auto& [value, t, where] = largest;
-  archive(value, t, where);
-}
-
-inline void members(Archive& archive, Check& check) {
-  auto& [name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed, gap, off] = check;
-  archive(name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed, gap, off);
-}
-
-inline void members(Archive& archive, TimeSeries& series) {
-  auto& [names, columns] = series;
-  archive(names, columns);
-}
-
-inline void members(Archive& archive, CurveLine& line) {
-  auto& [label, unit, values, role] = line;
-  archive(label, unit, values, role);
-}
-
-inline void members(Archive& archive, Curve& curve) {
-  auto& [about, title, x_label, over_time, x, lines] = curve;
-  archive(about, title, x_label, over_time, x, lines);
-}
-
-inline void members(Archive& archive, Event& event) {
-  auto& [t, what] = event;
-  archive(t, what);
-}
-
-inline void members(Archive& archive, EffortDeviation& deviation) {
-  auto& [unit, largest, t, where, largest_effort, drift, duration, length, seen, seen_for, allowed, without,
-         from_without] = deviation;
-  archive(unit, largest, t, where, largest_effort, drift, duration, length, seen, seen_for, allowed, without,
-          from_without);
-}
-
-inline void members(Archive& archive, Voice& voice) {
-  auto& [engine, formulations] = voice;
-  archive(engine, formulations);
-}
-
-inline void members(Archive& archive, OddOne& odd_one) {
-  auto& [formulations, agree, odd] = odd_one;
-  archive(formulations, agree, odd);
-}
-
-inline void members(Archive& archive, NamedCause& cause) {
-  auto& [kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained, joint,
-         signs] = cause;
-  archive(kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained, joint,
-          signs);
-}
-
-inline void members(Archive& archive, ScenarioChange& change) {
-  auto& [key, value] = change;
-  archive(key, value);
-}
-
-inline void members(Archive& archive, FailureSize& size) {
-  auto& [grade, limits, rounding, least_term, least_share, remedy] = size;
-  archive(grade, limits, rounding, least_term, least_share, remedy);
-}
-
-inline void members(Archive& archive, NeededRows& needed) {
-  auto& [rows, given] = needed;
-  archive(rows, given);
-}
-
-inline void members(Archive& archive, BlindSpot& spot) {
-  auto& [mistake, alike, cause, largest] = spot;
-  archive(mistake, alike, cause, largest);
-}
-
-inline void members(Archive& archive, TermError& each) {
-  auto& [term, error] = each;
-  archive(term, error);
-}
-
-inline void members(Archive& archive, CauseWords& words) {
-  auto& [off, cause, claim] = words;
-  archive(off, cause, claim);
-}
-
-inline void members(Archive& archive, Finding& finding) {
-  auto& [name, words, value, uncertainty, unit, t, leg] = finding;
-  archive(name, words, value, uncertainty, unit, t, leg);
-}
-
-inline void members(Archive& archive, JudgedSubject& subject) {
-  auto& [name, formulation, called_by, map, torques] = subject;
-  archive(name, formulation, called_by, map, torques);
-}
+URSULA_MEMBERS(Largest, value, t, where)
+URSULA_MEMBERS(Check, name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed, gap, off)
+URSULA_MEMBERS(TimeSeries, names, columns)
+URSULA_MEMBERS(CurveLine, label, unit, values, role)
+URSULA_MEMBERS(Curve, about, title, x_label, over_time, x, lines)
+URSULA_MEMBERS(Event, t, what)
+URSULA_MEMBERS(EffortDeviation, unit, largest, t, where, largest_effort, drift, duration, length, seen, seen_for,
+               allowed, without, from_without)
+URSULA_MEMBERS(Voice, engine, formulations)
+URSULA_MEMBERS(OddOne, formulations, agree, odd)
+URSULA_MEMBERS(NamedCause, kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to,
+               explained, joint, signs)
+URSULA_MEMBERS(ScenarioChange, key, value)
+URSULA_MEMBERS(FailureSize, grade, limits, rounding, least_term, least_share, remedy)
+URSULA_MEMBERS(NeededRows, rows, given)
+URSULA_MEMBERS(BlindSpot, mistake, alike, cause, largest)
+URSULA_MEMBERS(TermError, term, error)
+URSULA_MEMBERS(CauseWords, off, cause, claim)
+URSULA_MEMBERS(Finding, name, words, value, uncertainty, unit, t, leg)
+URSULA_MEMBERS(JudgedSubject, name, formulation, called_by, map, torques)
 
 /// It is parsed again from its text.
 inline void members(Archive& archive, std::shared_ptr<const Scenario>& asked) {

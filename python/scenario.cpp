@@ -6,7 +6,6 @@
 #include <ursula/validate.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -18,9 +17,6 @@
 #include "python/mechanism.h"
 #include "python/motion.h"
 #include "python/words.h"
-
-template <>
-class pybind11::detail::type_caster<ursula::PlatformPose> : public ursula::python::MadeCaster<ursula::PlatformPose> {};
 
 namespace ursula::python {
 namespace py = pybind11;
@@ -199,17 +195,6 @@ std::vector<PlatformPose> directKinematics(const ScenarioWithSolver& self, const
   return on_spheres ? posesOnSpheres(machine, driven) : posesOfPaper(self.kinematics, driven);
 }
 
-/// The content of a scenario, independent of its folder.
-py::tuple textOf(const ScenarioWithSolver& self) {
-  return py::make_tuple(self.scenario.text, std::filesystem::absolute(self.scenario.file).string());
-}
-
-std::shared_ptr<ScenarioWithSolver> scenarioOf(const py::tuple& state) {
-  const auto text = state[0].cast<std::string>(), file = state[1].cast<std::string>();
-  const Unlocked unlocked;
-  return std::make_shared<ScenarioWithSolver>(parseScenario(text, file));
-}
-
 void addPose(py::module_& module) {
   using Pose = PlatformPose;
   py::class_<Pose>(module, "Pose", "One pose of the platform for given actuated coordinates.")
@@ -237,11 +222,14 @@ void addPose(py::module_& module) {
 }  // namespace
 
 std::shared_ptr<ScenarioWithSolver> warnedOf(std::shared_ptr<ScenarioWithSolver> read) {
-  const std::vector<std::string> lines = warnings(read->scenario);
-  const Locked locked;
-  for (const std::string& line : lines)  // by the caller of the wrapper in _errors.py
-    if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 2) != 0) throw py::error_already_set();
+  warnOf(warnings(read->scenario));
   return read;
+}
+
+void warnOf(const std::vector<std::string>& lines) {
+  const Locked locked;
+  for (const std::string& line : lines)
+    if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 2) != 0) throw py::error_already_set();
 }
 
 void addScenario(py::module_& module) {
@@ -250,7 +238,9 @@ void addScenario(py::module_& module) {
   py::class_<ScenarioWithSolver, std::shared_ptr<ScenarioWithSolver>> scenario(module, "Scenario", words::scenario);
   addCopies(scenario);
   const auto content = [](const ScenarioWithSolver& self) { return scenarioJson(self.scenario); };
-  scenario.def(py::pickle(&textOf, &scenarioOf))
+  scenario
+      .def(pickledText<ScenarioWithSolver>(
+          [](const std::string& text, const std::string& file) { return parseScenario(text, file); }))
       .def(
           "__eq__",
           [content](const ScenarioWithSolver& self, const ScenarioWithSolver& other) {

@@ -28,14 +28,6 @@ struct ScenarioWithSolver {
   BatchDynamics batch;
 };
 
-}  // namespace ursula::python
-
-template <>
-class pybind11::detail::type_caster<ursula::python::ScenarioWithSolver>
-    : public ursula::python::MadeCaster<ursula::python::ScenarioWithSolver> {};
-
-namespace ursula::python {
-
 /// Throws TypeError with the function's name and what is expected unless the object is a Scenario.
 void requireScenario(const char* function, const pybind11::object& given,
                      const char* expected = "ursula.Scenario or ursula.MechanismScenario");

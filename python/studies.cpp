@@ -30,13 +30,6 @@ struct Simulated {
   std::string gave_up;
 };
 
-}  // namespace ursula::python
-
-template <>
-class pybind11::detail::type_caster<ursula::python::Simulated>
-    : public ursula::python::MadeCaster<ursula::python::Simulated> {};
-
-namespace ursula::python {
 namespace py = pybind11;
 namespace {
 
@@ -114,7 +107,7 @@ std::pair<std::vector<std::string>, std::string> foundIn(const py::object& given
 
 py::object checkedAny(const py::object& given) {
   const auto found = foundIn(given);
-  const py::object blind = py::module_::import("json").attr("loads")(found.second);
+  const py::object blind = fromJson(found.second);
   return py::module_::import("ursula._checked").attr("Checked")(found.first, blind);
 }
 
@@ -145,7 +138,7 @@ py::dict columnsOf(const BlockTable& blocks, int jobs) {
       if (interruption.cameInBetween()) interruption.rethrow();
     });
   }
-  const py::dict header = py::module_::import("json").attr("loads")(bytes.substr(0, bytes.find('\n')));
+  const py::dict header = fromJson(bytes.substr(0, bytes.find('\n')));
   const py::list names = header["columns"];
   const auto width = static_cast<py::ssize_t>(names.size());
   const double* first = reinterpret_cast<const double*>(bytes.data() + header["offset"].cast<std::size_t>());

@@ -11,12 +11,11 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "python/archive.h"
 #include "python/judging.h"
-#include "python/result.h"
+#include "python/made.h"
 #include "python/result_archive.h"
 #include "python/words.h"
 
@@ -185,9 +184,8 @@ void addCheck(py::module_& module) {
       .def_readonly("value", &Check::value, "In `unit`.")
       .def_readonly("limit", &Check::limit, "In `unit`.")
       .def_readonly("unit", &Check::unit)
-      .def_property_readonly(
-          "verdict", [](const Check& check) { return ursula::name(check.verdict); },
-          "\"pass\", \"fail\", \"inconclusive\" or \"not_applicable\".")
+      .def_property_readonly("verdict", &verdictOf<Check>,
+                             "\"pass\", \"fail\", \"inconclusive\" or \"not_applicable\".")
       .def_readonly("basis", &Check::basis, "The origin of the limit.")
       .def_property_readonly("why", &whyInFull, "Details of the result: the leg or body, the instant, the size.")
       .def_property_readonly(
@@ -203,9 +201,7 @@ void addResult(py::module_& module) {
   addCopies(made);
   made.def(pickled<Result>())
       .def_readonly("scenario", &Result::scenario, "The scenario's name.")
-      .def_property_readonly(
-          "verdict", [](const Result& result) { return ursula::name(result.verdict); },
-          "\"pass\", \"fail\" or \"inconclusive\".")
+      .def_property_readonly("verdict", &verdictOf<Result>, "\"pass\", \"fail\" or \"inconclusive\".")
       .def_property_readonly(
           "reason", [](const Result& result) { return ursula::reason(result.verdict, result.checks); },
           "The reason for the verdict, in one sentence.")
@@ -236,10 +232,7 @@ void addResult(py::module_& module) {
       .def_property_readonly("timeseries", &seriesOf,
                              "The columns of timeseries.csv, each (N,): motion, torques, errors.")
       .def_property_readonly(
-          "summary",
-          [](const Result& result) {
-            return py::module_::import("json").attr("loads")(report::summaryJson(report::stamped(result)));
-          },
+          "summary", [](const Result& result) { return fromJson(report::summaryJson(report::stamped(result))); },
           "The contents of summary.json as a dict.")
       .def("write", &written, py::arg("dir"), words::write)
       .def_property_readonly(

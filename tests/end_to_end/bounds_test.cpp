@@ -20,8 +20,7 @@ TEST(BoundsRun, readsNoEndlessSource) {
   ursula.write("small.toml", good_scenario);
   for (const char* call : {"check /dev/zero", "check - < /dev/zero", "sweep /dev/zero --db a.db",
                            "validate small.toml --torques /dev/zero", "compare /dev/zero /dev/zero"}) {
-    const auto run = ursula(call);
-    EXPECT_EQ(run.exit_code, bad_input) << call;
+    const UrsulaRun run = ursula.ending(bad_input, call);
     EXPECT_THAT(run.err, AllOf(HasSubstr(":1"), HasSubstr("error: a zero byte, expected text"))) << call;
   }
   const auto pipe = ursula("check - < small.toml");
@@ -41,7 +40,7 @@ TEST(BoundsRun, refusesNumbersThatWouldWrapAround) {
   const std::string prove = "prove --only-random --random 0 --seed ";
   for (const char* seed : {"-1", "''", "18446744073709551616", "1.5", "1e3", "' 1'"})
     expectRefused(ursula, {{prove + seed, "is not an integer from 0 to 18446744073709551615"}});
-  EXPECT_EQ(ursula(prove + "18446744073709551615").exit_code, 0);
+  ursula.passing(prove + "18446744073709551615");
 }
 
 TEST(BoundsRun, tellsTheTerminalNothing) {
@@ -49,8 +48,7 @@ TEST(BoundsRun, tellsTheTerminalNothing) {
   ursula.write("bad.toml", "name = \"a\\u001b]0;b\\u0007\"\n");
   ursula.write("p\x1b[31m.toml", "x = 1\n");
   for (const char* call : {"check bad.toml", "check 'p\x1b[31m.toml'", "validate 'no\x1b[31m' p*", "'\x1b[31m'"}) {
-    const auto run = ursula(call);
-    EXPECT_EQ(run.exit_code, bad_input) << call;
+    const UrsulaRun run = ursula.ending(bad_input, call);
     EXPECT_THAT(run.err, AllOf(HasSubstr("\\x1b"), Not(HasSubstr("\x1b")))) << call;
   }
 }
@@ -63,8 +61,7 @@ TEST(BoundsRun, makesNoLineOfAPath) {
                              "[trajectory]\nkind = \"samples\"\nfile = \"x\\na.toml:9:9: error: forged\"\n");
   ursula.write("b\nb.toml:1:1: error: forged", "x = 1\n");
   for (const char* call : {"check a.toml", "check b*", "validate b*", "sweep b*"}) {
-    const auto run = ursula(call);
-    EXPECT_EQ(run.exit_code, bad_input) << call;
+    const UrsulaRun run = ursula.ending(bad_input, call);
     EXPECT_THAT(run.err, AllOf(HasSubstr("\\x0a"), Not(HasSubstr("\na.toml:9")), Not(HasSubstr("\nb.toml:1")))) << call;
   }
 }
@@ -77,8 +74,7 @@ TEST(BoundsRun, inverseNamesInstantAndQuantityOfWhatIsNotFinite) {
                                  {"center_of_mass = [0.0, 0.0, 1.88]", "center_of_mass = [0.0, 0.0, 1e30]"}})
     fast = replaced(fast, from, to);
   ursula.write("small.toml", fast);
-  const auto run = ursula("inverse small.toml --samples 3 --out out.csv");
-  EXPECT_EQ(run.exit_code, bad_input);
+  const UrsulaRun run = ursula.ending(bad_input, "inverse small.toml --samples 3 --out out.csv");
   EXPECT_THAT(run.err, ContainsRegex("tau_[1-6]_Nm = -?(inf|nan) at t = [0-9.e-]+ s, expected a finite number"));
   EXPECT_EQ(ursula.files(), 1U) << "nothing was written";
 }
@@ -110,7 +106,7 @@ TEST(BoundsRun, saysThatTheWorkingFolderIsGone) {
     const std::string line = "cd '" + (ursula.folder() / "gone").string() +
                              "' && rmdir ../gone && '" URSULA_PROGRAM "' " + call + " >../out 2>../err";
     EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), bad_input) << call;
-    EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "err"), says) << call;
+    EXPECT_EQ(ursula.read("err"), says) << call;
   }
 }
 
@@ -119,9 +115,8 @@ TEST(TimeLimitRun, endsWithTheAnswerOfASlowSolver) {
   const Program ursula;
   ursula.write("small.toml", good_scenario);
   ursula.write("slow.sh", "while read -r line; do echo >> asked; sleep 5; echo 1,2,3,4,5,6; done\n");
-  const auto run = ursula("validate small.toml --solver 'sh slow.sh' --solver-timeout 60 --time-limit 5 --out out");
-  EXPECT_EQ(run.exit_code, inconclusive) << run.out << run.err;
-  const auto asked = TemporaryFolder::read(ursula.folder() / "asked").size();
+  ursula.ending(inconclusive, "validate small.toml --solver 'sh slow.sh' --solver-timeout 60 --time-limit 5 --out out");
+  const auto asked = ursula.read("asked").size();
   EXPECT_GT(asked, 0U);
   EXPECT_LE(asked, 2U) << "of 301";
 }
@@ -129,10 +124,9 @@ TEST(TimeLimitRun, endsWithTheAnswerOfASlowSolver) {
 TEST(TimeLimitRun, leavesAnInconclusiveReport) {
   const Program ursula;
   ursula.write("small.toml", good_scenario);
-  const auto run = ursula("validate small.toml --time-limit 0.001 --out out");
-  EXPECT_EQ(run.exit_code, inconclusive) << run.err;
+  const UrsulaRun run = ursula.ending(inconclusive, "validate small.toml --time-limit 0.001 --out out");
   EXPECT_THAT(run.out, HasSubstr("the time limit of 0.001 s was reached"));
-  const auto summary = nlohmann::json::parse(TemporaryFolder::read(ursula.folder() / "out/summary.json"));
+  const auto summary = nlohmann::json::parse(ursula.read("out/summary.json"));
   EXPECT_EQ(summary["verdict"], "inconclusive");
   for (const char* file : {"report.html", "junit.xml", "timeseries.csv"})
     EXPECT_TRUE(std::filesystem::exists(ursula.folder() / "out" / file)) << file;
@@ -143,17 +137,15 @@ TEST(TimeLimitRun, holdsForEachOfASuite) {
   const Program ursula;
   ursula.write("a.toml", replaced(good_scenario, "\"small\"", "\"a\""));
   ursula.write("b.toml", replaced(good_scenario, "\"small\"", "\"b\""));
-  const auto run = ursula("validate a.toml b.toml --time-limit 0.001 --out out");
-  EXPECT_EQ(run.exit_code, inconclusive) << run.err;
+  const UrsulaRun run = ursula.ending(inconclusive, "validate a.toml b.toml --time-limit 0.001 --out out");
   EXPECT_THAT(run.out, HasSubstr("0 passed, 0 failed, 2 inconclusive"));
 }
 
 TEST(TimeLimitRun, endsASimulation) {
   const Program ursula;
   ursula.write("small.toml", good_scenario);
-  ASSERT_EQ(ursula("inverse small.toml --samples 20 --out tau.csv").exit_code, 0);
-  const auto run = ursula("simulate small.toml --torques tau.csv --time-limit 1e-9");
-  EXPECT_EQ(run.exit_code, 1);
+  ursula.passing("inverse small.toml --samples 20 --out tau.csv");
+  const UrsulaRun run = ursula.ending(1, "simulate small.toml --torques tau.csv --time-limit 1e-9");
   EXPECT_THAT(run.err, HasSubstr("the time limit of 1e-09 s was reached"));
   EXPECT_EQ(ursula("simulate small.toml --torques tau.csv --time-limit 1e6").exit_code, 0) << "the control";
 }

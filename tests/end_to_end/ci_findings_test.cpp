@@ -23,7 +23,7 @@ class CiFindings : public testing::Test {
     std::filesystem::create_directories(ursula_.folder() / "suite");
     for (const std::string file : {"fourbar.toml", "fourbar.xml"})
       ursula_.write("suite/" + file, TemporaryFolder::read(std::string(URSULA_VECTORS "/loops/") + file));
-    EXPECT_EQ(ursula_("inverse suite/fourbar.toml --samples 51 --out motion.csv").exit_code, 0);
+    ursula_.passing("inverse suite/fourbar.toml --samples 51 --out motion.csv");
   }
   void writeEfforts(const std::string& file, double factor) const {
     const CsvTable motion = readCsv(ursula_.folder() / "motion.csv");
@@ -36,14 +36,12 @@ class CiFindings : public testing::Test {
 
 TEST_F(CiFindings, areAnnotationsOfGitHub) {
   writeEfforts("wrong.csv", 1.01);
-  const auto wrong = ursula_("validate suite/fourbar.toml --torques wrong.csv --format github --out o");
-  EXPECT_EQ(wrong.exit_code, 1);
+  const UrsulaRun wrong = ursula_.ending(1, "validate suite/fourbar.toml --torques wrong.csv --format github --out o");
   EXPECT_THAT(wrong.out, StartsWith("::error file=suite/fourbar.toml,line=1,col=1,title=ursula%3A fail::fourbar: "));
   EXPECT_THAT(wrong.out, HasSubstr("1 %25"));
   EXPECT_THAT(wrong.out, HasSubstr("; likely cause: "));
   EXPECT_EQ(std::count(wrong.out.begin(), wrong.out.end(), '\n'), 1) << "one line for a scenario";
-  const auto right = ursula_("validate suite/fourbar.toml --format github --out o");
-  EXPECT_EQ(right.exit_code, 0);
+  const UrsulaRun right = ursula_.passing("validate suite/fourbar.toml --format github --out o");
   EXPECT_THAT(right.out, StartsWith("::notice file=suite/fourbar.toml"));
   EXPECT_THAT(right.out, Not(HasSubstr("likely cause")));
 }
@@ -63,8 +61,7 @@ TEST_F(CiFindings, areSarif) {
 
 TEST_F(CiFindings, placeBadScenarios) {
   ursula_.write("suite/bad.toml", "name = \"bad\"\n[mechanism]\nfile = 7\n");
-  const auto run = ursula_("validate suite --format github --out o");
-  EXPECT_EQ(run.exit_code, 1);
+  const UrsulaRun run = ursula_.ending(1, "validate suite --format github --out o");
   EXPECT_THAT(run.out, HasSubstr("::error file=suite/bad.toml,line=3,col="));
   EXPECT_THAT(run.out, HasSubstr("::notice file=suite/fourbar.toml"));
 }
@@ -77,8 +74,7 @@ TEST_F(CiFindings, placeRefusedInput) {
                                     {"suite/fourbar.toml --torques none.csv", "none.csv,line=3,"},
                                     {"suite/fourbar.toml --map nobody=t", "suite/fourbar.toml,line=1,"},
                                     {"suite/fourbar.toml bad.toml --strict", "bad.toml,line=3,"}}) {
-    const auto run = ursula_("validate " + call + " --format github --out o");
-    EXPECT_EQ(run.exit_code, 2) << call;
+    const UrsulaRun run = ursula_.ending(2, "validate " + call + " --format github --out o");
     EXPECT_THAT(run.out, StartsWith("::error file=" + place)) << call;
     EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 1) << call;
     EXPECT_NE(run.err, "") << call;
@@ -90,15 +86,14 @@ TEST_F(CiFindings, placeRefusedInput) {
 
 TEST_F(CiFindings, sayWhatChangedSinceAnEarlierRun) {
   writeEfforts("wrong.csv", 1.01);
-  EXPECT_EQ(ursula_("validate suite/fourbar.toml --out old --quiet").exit_code, 0);
+  ursula_.passing("validate suite/fourbar.toml --out old --quiet");
   const auto same = ursula_("validate suite/fourbar.toml --out new --against old --quiet");
   EXPECT_THAT(same.out, HasSubstr("fourbar, since old:\n  nothing changed\n"));
-  const auto run = ursula_("validate suite/fourbar.toml --torques wrong.csv --out new --against old --quiet");
-  EXPECT_EQ(run.exit_code, 1);
+  const UrsulaRun run =
+      ursula_.ending(1, "validate suite/fourbar.toml --torques wrong.csv --out new --against old --quiet");
   EXPECT_THAT(run.out, HasSubstr("  verdict: pass before, fail now\n"));
   EXPECT_THAT(run.out, HasSubstr("  torque.pointwise: pass before, fail now\n"));
-  const auto nowhere = ursula_("validate suite/fourbar.toml --out other --against nowhere --quiet");
-  EXPECT_EQ(nowhere.exit_code, 2);
+  const UrsulaRun nowhere = ursula_.ending(2, "validate suite/fourbar.toml --out other --against nowhere --quiet");
   EXPECT_THAT(nowhere.err, HasSubstr("--against nowhere: no such folder"));
   EXPECT_FALSE(std::filesystem::exists(ursula_.folder() / "other"));
   std::filesystem::create_directory(ursula_.folder() / "empty");
@@ -108,10 +103,9 @@ TEST_F(CiFindings, sayWhatChangedSinceAnEarlierRun) {
 
 TEST_F(CiFindings, judgeEffortsBesideAScenario) {
   writeEfforts("suite/fourbar.csv", 1);
-  EXPECT_EQ(ursula_("validate suite --out o --quiet").exit_code, 0);
+  ursula_.passing("validate suite --out o --quiet");
   writeEfforts("suite/fourbar.csv", 1.01);
-  const auto wrong = ursula_("validate suite --out o --quiet");
-  EXPECT_EQ(wrong.exit_code, 1);
+  const UrsulaRun wrong = ursula_.ending(1, "validate suite --out o --quiet");
   EXPECT_THAT(wrong.out, HasSubstr("torque.against_noc"));
   const auto alone = ursula_("validate suite/fourbar.toml --out o --quiet");
   EXPECT_EQ(alone.exit_code, 0) << "a file that is named alone is judged alone";

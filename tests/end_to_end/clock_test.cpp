@@ -42,8 +42,8 @@ TEST(ClockSetBack, resultsOfTomorrowAreReplacedAsAWhole) {
   const Program ursula;
   ursula.write("a.toml", quickScenario("one"));
   ursula.write("b.toml", quickScenario("one", "499.0"));
-  ASSERT_EQ(ursula("validate b.toml --quiet --out fresh").exit_code, 0);
-  ASSERT_EQ(ursula("validate a.toml --quiet --out old").exit_code, 0);
+  ursula.passing("validate b.toml --quiet --out fresh");
+  ursula.passing("validate a.toml --quiet --out old");
   fs::copy(ursula.folder() / "old", ursula.folder() / "out", fs::copy_options::recursive);
   makeOfTomorrow(ursula.folder() / "out");
   const fs::path left = leftoverOf(ursula, "out"), of_another = leftoverOf(ursula, "another");
@@ -53,7 +53,7 @@ TEST(ClockSetBack, resultsOfTomorrowAreReplacedAsAWhole) {
   EXPECT_LT(startSaidBy(ursula.folder() / "out/junit.xml"), start) << "or no clock was set back";
   EXPECT_LT(start, startSaidBy(ursula.folder() / "later/junit.xml")) << "the control: a clock that leaps";
   EXPECT_NE(startSaidBy(ursula.folder() / "out/junit.xml"), "");
-  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "out/junit.xml"), testing::Not(HasSubstr("time=\"-")));
+  EXPECT_THAT(ursula.read("out/junit.xml"), testing::Not(HasSubstr("time=\"-")));
   EXPECT_TRUE(contents(ursula.folder() / "out") == contents(ursula.folder() / "fresh"));
   EXPECT_FALSE(contents(ursula.folder() / "out") == contents(ursula.folder() / "old")) << "or nothing would be seen";
   EXPECT_FALSE(fs::exists(left));
@@ -66,12 +66,11 @@ TEST(ClockSetBack, resultsOfTomorrowAreReplacedAsAWhole) {
 TEST(ClockSetBack, aFileOfTomorrowIsReplaced) {
   const Program ursula;
   ursula.write("a.toml", quickScenario("one"));
-  ASSERT_EQ(ursula("inverse a.toml --samples 20 --out fresh.csv").exit_code, 0);
+  ursula.passing("inverse a.toml --samples 20 --out fresh.csv");
   makeOfTomorrow(ursula.write("out.csv", "old\n"));
   ASSERT_EQ(shell(ursula, backwards + "inverse a.toml --samples 20 --out out.csv"), 0);
-  EXPECT_GT(TemporaryFolder::read(ursula.folder() / "out.csv").size(), 1000U);
-  EXPECT_TRUE(TemporaryFolder::read(ursula.folder() / "out.csv") ==
-              TemporaryFolder::read(ursula.folder() / "fresh.csv"));
+  EXPECT_GT(ursula.read("out.csv").size(), 1000U);
+  EXPECT_TRUE(ursula.read("out.csv") == ursula.read("fresh.csv"));
 }
 
 const std::string small_sweep = massSweep("a.toml", "what = \"inverse\"\ncount = 40\nsamples = 5\n");
@@ -83,8 +82,8 @@ TEST(ClockSetBack, aSweepGoesOnWhereItStopped) {
   const auto rows = [&ursula](const std::string& database) {
     return ursula("sweep report " + database + " --csv -").out;
   };
-  ASSERT_EQ(ursula("sweep s.toml --db fresh.db").exit_code, 0);
-  ASSERT_EQ(ursula("sweep s.toml --shard 1/2 --db half.db").exit_code, 0);
+  ursula.passing("sweep s.toml --db fresh.db");
+  ursula.passing("sweep s.toml --shard 1/2 --db half.db");
   ASSERT_EQ(ursula("sweep merge half.db --db s.db").exit_code, 3) << "half of it is missing";
   EXPECT_NE(rows("s.db"), rows("fresh.db")) << "the control";
   makeOfTomorrow(ursula.folder() / "s.db");
@@ -93,21 +92,21 @@ TEST(ClockSetBack, aSweepGoesOnWhereItStopped) {
   EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 41);
   EXPECT_EQ(rows("s.db"), all);
   EXPECT_EQ(shell(ursula, backwards + "sweep s.toml --db s.db >said 2>err"), 0);
-  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "err"), HasSubstr("nothing to do"));
+  EXPECT_THAT(ursula.read("err"), HasSubstr("nothing to do"));
 }
 
 /// A limit by the wall clock would end at once if the clock leaps, and never if it goes back.
 TEST(ClockSetBack, limitsOfTimeAreUpsetByNoClock) {
   const Program ursula;
   ursula.write("a.toml", quickScenario("one"));
-  ASSERT_EQ(ursula("validate a.toml --quiet --out fresh").exit_code, 0);
-  const std::string summary = TemporaryFolder::read(ursula.folder() / "fresh/summary.json");
+  ursula.passing("validate a.toml --quiet --out fresh");
+  const std::string summary = ursula.read("fresh/summary.json");
   ASSERT_EQ(nlohmann::json::parse(summary).at("verdict"), "pass");
   for (const std::string& clock : {backwards, leaping}) {
     EXPECT_EQ(shell(ursula, clock + "validate a.toml --time-limit 36000 --quiet --out out"), 0) << clock;
-    EXPECT_TRUE(TemporaryFolder::read(ursula.folder() / "out/summary.json") == summary) << clock;
+    EXPECT_TRUE(ursula.read("out/summary.json") == summary) << clock;
     EXPECT_EQ(shell(ursula, clock + "validate a.toml --time-limit 1e-9 --quiet --out out >said"), 3) << clock;
-    EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "out/summary.json"), HasSubstr("the time limit of 1e-09 s"));
+    EXPECT_THAT(ursula.read("out/summary.json"), HasSubstr("the time limit of 1e-09 s"));
   }
 }
 
@@ -115,11 +114,11 @@ TEST(ClockSetBack, aSolverIsWaitedForByNoWallClock) {
   const Program ursula;
   ursula.write("a.toml", quickScenario("one"));
   const std::string call = "validate a.toml --quiet --out out --solver '" URSULA_EXAMPLE_SOLVER "' --solver-timeout ";
-  EXPECT_EQ(shell(ursula, leaping + call + "36000 2>err"), 0) << TemporaryFolder::read(ursula.folder() / "err");
+  EXPECT_EQ(shell(ursula, leaping + call + "36000 2>err"), 0) << ursula.read("err");
   ursula.write("silent.sh", "read -r line; sleep 60\n");
   EXPECT_EQ(shell(ursula, backwards + "validate a.toml --out out --solver 'sh silent.sh' --solver-timeout 0.1 2>err"),
             2);
-  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "err"), HasSubstr("gave no answer within 0.1 s"));
+  EXPECT_THAT(ursula.read("err"), HasSubstr("gave no answer within 0.1 s"));
 }
 
 }  // namespace

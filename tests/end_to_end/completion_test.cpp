@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <regex>
-#include <sstream>
 
 #include "tests/end_to_end/program.h"
 #include "tests/support/matchers.h"
@@ -39,8 +38,7 @@ std::string unescaped(const std::string& roff) { return std::regex_replace(roff,
 
 TEST(Completion, isNotMixedWithTheManPage) {
   const Program ursula;
-  const auto both = ursula("docs --man --completion bash");
-  EXPECT_EQ(both.exit_code, 2);
+  const UrsulaRun both = ursula.ending(2, "docs --man --completion bash");
   EXPECT_EQ(both.out, "");
   EXPECT_THAT(both.err, HasSubstr("--completion excludes --man"));
 }
@@ -79,7 +77,7 @@ std::vector<std::string> offered(const Program& ursula, const std::string& line)
                                     "printf '%s\\n' \"${COMPREPLY[@]}\" > offered\n");
   const std::string call = "cd '" + ursula.folder().string() + "' && bash complete.bash";
   EXPECT_EQ(std::system(call.c_str()), 0);
-  return matches("\n" + TemporaryFolder::read(ursula.folder() / "offered"), "([^\n]+)");
+  return matches("\n" + ursula.read("offered"), "([^\n]+)");
 }
 
 TEST(Completion, completesInBash) {

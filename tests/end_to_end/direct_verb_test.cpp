@@ -99,7 +99,7 @@ TEST_F(DirectVerb, WritesTheSameToAFile) {
   const auto run = direct(phi, "--out poses.csv");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(run.out, "");
-  EXPECT_EQ(TemporaryFolder::read(ursula_.folder() / "poses.csv"), direct(phi).out);
+  EXPECT_EQ(ursula_.read("poses.csv"), direct(phi).out);
 }
 
 TEST_F(DirectVerb, SaysWhatIsWrong) {
@@ -127,11 +127,10 @@ TEST_F(DirectVerb, TellsNoPoseFromNoDeterminedPose) {
 }
 
 TEST_F(DirectVerb, FindsThePoseAgainForLegsOfCrankAndRod) {
-  ASSERT_EQ(ursula_("init rus.toml --kind RUS").exit_code, 0);
+  ursula_.passing("init rus.toml --kind RUS");
   const CsvTable inverse = table(ursula_("inverse rus.toml --samples 3").out);
   for (const std::string option : {"--phi", "--coordinates"}) {
-    const auto run = ursula_("direct rus.toml " + option + " '" + anglesOf(inverse, 1) + "'");
-    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const UrsulaRun run = ursula_.passing("direct rus.toml " + option + " '" + anglesOf(inverse, 1) + "'");
     const CsvTable poses = table(run.out);
     double nearest = 1;
     for (std::size_t k = 0; k < poses.rows(); ++k)

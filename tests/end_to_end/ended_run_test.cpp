@@ -62,7 +62,7 @@ TEST(EndedRun, ofTooFewDescriptorsNamesAPath) {
   for (const char* most : {"4", "5", "6"}) {  // the message has a path, whichever part meets the limit first
     shell(ursula, std::string("prlimit --nofile=") + most +
                       " $URSULA validate one.toml two.toml --time-limit 1e-9 --out out >said 2>err");
-    const std::string said = TemporaryFolder::read(ursula.folder() / "err");
+    const std::string said = ursula.read("err");
     is_seen = is_seen || said.find("Too many open files") != std::string::npos;
     EXPECT_THAT(said, Not(HasSubstr("error: :"))) << most;
     fs::remove_all(ursula.folder() / "out");
@@ -85,8 +85,7 @@ TEST(LostTerminal, isNoReasonToStop) {
     fs::remove_all(ursula.folder() / "out");
     EXPECT_EQ(shell(ursula, lost), 3) << lost;
     EXPECT_TRUE(contents(ursula.folder() / "out") == expected) << lost;
-    EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "said"), HasSubstr("0 passed, 0 failed, 2 inconclusive"))
-        << lost;
+    EXPECT_THAT(ursula.read("said"), HasSubstr("0 passed, 0 failed, 2 inconclusive")) << lost;
   }
 }
 
@@ -100,14 +99,12 @@ TEST(LostData, isExit2AndSaidOnWhatIsLeft) {
     for (const char* lost : {">/dev/full", ">&-"}) {
       const std::string line = std::string("\"$URSULA\" ") + call + " " + lost;
       EXPECT_EQ(shell(ursula, line + " 2>err"), 2) << line;
-      EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "err"),
-                  HasSubstr("error: standard output could not be written"))
-          << line;
+      EXPECT_THAT(ursula.read("err"), HasSubstr("error: standard output could not be written")) << line;
     }
   for (const char* both : {">/dev/full 2>&-", ">&- 2>&-"})
     EXPECT_EQ(shell(ursula, std::string("\"$URSULA\" inverse a.toml ") + both), 2) << both;
   EXPECT_EQ(shell(ursula, "\"$URSULA\" inverse a.toml >/dev/null 2>err"), 0) << "what is thrown away is not lost";
-  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "err"), IsEmpty());
+  EXPECT_THAT(ursula.read("err"), IsEmpty());
 }
 
 }  // namespace

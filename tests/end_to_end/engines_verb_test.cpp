@@ -15,10 +15,9 @@ const std::string quick = "engines '" URSULA_SCENARIOS "/hexaglide.toml' --sampl
 
 TEST(EnginesVerb, printsATableAndWritesAFolder) {
   const Program ursula;
-  const UrsulaRun run = ursula(quick + "--out found");
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  const auto json = nlohmann::json::parse(TemporaryFolder::read(ursula.folder() / "found" / "engines.json"));
-  const std::string page = TemporaryFolder::read(ursula.folder() / "found" / "report.html");
+  const UrsulaRun run = ursula.passing(quick + "--out found");
+  const auto json = nlohmann::json::parse(ursula.read("found/engines.json"));
+  const std::string page = ursula.read("found/report.html");
   ASSERT_GE(json.at("engines").size(), 2u);
   for (const auto& engine : json.at("engines")) {
     EXPECT_LE(engine.at("efforts").at(0).at("error").get<double>(), 1e-12);
@@ -26,13 +25,12 @@ TEST(EnginesVerb, printsATableAndWritesAFolder) {
     EXPECT_THAT(page, HasSubstr(engine.at("name").get<std::string>()));
   }
   EXPECT_THAT(run.out, HasSubstr("page: found/report.html"));
-  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "found" / "engines.csv"), HasSubstr("Simbody,"));
+  EXPECT_THAT(ursula.read("found/engines.csv"), HasSubstr("Simbody,"));
 }
 
 TEST(EnginesVerb, printsJsonAndNothingElse) {
   const Program ursula;
-  const UrsulaRun run = ursula(quick + "--json --engine simbody,'maximal coordinates'");
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const UrsulaRun run = ursula.passing(quick + "--json --engine simbody,'maximal coordinates'");
   const auto json = nlohmann::json::parse(run.out);
   ASSERT_EQ(json.at("engines").size(), 2u);
   EXPECT_EQ(json.at("engines").at(0).at("name"), "Simbody");
@@ -65,15 +63,14 @@ TEST(EnginesVerb, refusesWhatItCannotDo) {
 TEST(EnginesVerb, takesAMechanism) {
   const Program ursula;
   const std::string call = "engines '" URSULA_SCENARIOS "/mechanisms/fivebar.toml' --samples 5 ";
-  const UrsulaRun run = ursula(call + "--engine simbody,'maximal coordinates' --out found");
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const UrsulaRun run = ursula.passing(call + "--engine simbody,'maximal coordinates' --out found");
   EXPECT_THAT(run.out, HasSubstr("Motors: left up to "));
-  const auto json = nlohmann::json::parse(TemporaryFolder::read(ursula.folder() / "found" / "engines.json"));
+  const auto json = nlohmann::json::parse(ursula.read("found/engines.json"));
   ASSERT_EQ(json.at("engines").size(), 2u);
   EXPECT_LE(json.at("engines").at(0).at("efforts").at(0).at("error").get<double>(), 1e-13);
   EXPECT_EQ(json.at("engines").at(0).at("cut"), nlohmann::json({"pin"}));
-  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "found" / "report.html"), HasSubstr("fivebar.xml"));
-  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "found" / "efforts.csv"), HasSubstr("simbody_exact_tau_2_Nm"));
+  EXPECT_THAT(ursula.read("found/report.html"), HasSubstr("fivebar.xml"));
+  EXPECT_THAT(ursula.read("found/efforts.csv"), HasSubstr("simbody_exact_tau_2_Nm"));
   const UrsulaRun judged =
       ursula("validate '" URSULA_SCENARIOS "/mechanisms/fivebar.toml' --torques found/efforts.csv --quiet");
   EXPECT_THAT(judged.out, HasSubstr("fivebar: ")) << "the file is one of efforts: " << judged.err;
@@ -86,14 +83,13 @@ TEST(EnginesVerb, replacesNothingThatAMechanismReads) {
   ASSERT_EQ(ursula("inverse '" URSULA_SCENARIOS "/mechanisms/fivebar.toml' --samples 41 --out motion.csv").exit_code,
             0);
   std::filesystem::create_directory(ursula.folder() / "side");
-  ursula.write("side/efforts.csv", TemporaryFolder::read(ursula.folder() / "motion.csv"));
+  ursula.write("side/efforts.csv", ursula.read("motion.csv"));
   std::string text = shipped.substr(0, shipped.find("[trajectory]"));
   text.replace(text.find("fivebar.xml"), 11, URSULA_SCENARIOS "/mechanisms/fivebar.xml");
   ursula.write("sampled.toml", text + "[trajectory]\nkind = \"samples\"\nfile = \"side/efforts.csv\"\n");
-  const UrsulaRun run = ursula("engines sampled.toml --out side");
-  EXPECT_EQ(run.exit_code, 2);
+  const UrsulaRun run = ursula.ending(2, "engines sampled.toml --out side");
   EXPECT_THAT(run.err, HasSubstr("results would replace "));
-  EXPECT_EQ(ursula("engines sampled.toml --samples 3 --engine Simbody --out elsewhere").exit_code, 0);
+  ursula.passing("engines sampled.toml --samples 3 --engine Simbody --out elsewhere");
 }
 
 TEST(EnginesVerb, refusesAMechanismThatCannotMove) {

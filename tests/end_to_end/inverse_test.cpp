@@ -32,8 +32,7 @@ std::vector<std::string> contractColumns() {
 
 TEST(Inverse, printsTheColumnsOfTheContract) {
   const Program ursula;
-  const UrsulaRun run = ursula("inverse " + helix);
-  EXPECT_EQ(run.exit_code, 0);
+  const UrsulaRun run = ursula.passing("inverse " + helix);
   EXPECT_EQ(run.err, "");
   const CsvTable table = parseCsv(run.out, "stdout");
   EXPECT_EQ(table.names, contractColumns());
@@ -84,8 +83,7 @@ void expectClose(const Vector6<Real50>& found, const Vector6<Real50>& expected, 
 TEST_P(InverseNumbers, areThoseOfTheVectors) {
   const Program ursula;
   const std::string folder = GetParam() == "paper-helix" ? URSULA_SCENARIOS : URSULA_VECTORS;
-  const UrsulaRun run = ursula("inverse --samples 21 '" + folder + "/" + GetParam() + ".toml' --out out.csv");
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const UrsulaRun run = ursula.passing("inverse --samples 21 '" + folder + "/" + GetParam() + ".toml' --out out.csv");
   EXPECT_EQ(run.out, "");
   const CsvTable table = readCsv(ursula.folder() / "out.csv");
   const std::vector<VectorRow> rows = vectorRows(GetParam());
@@ -124,8 +122,8 @@ TEST(Inverse, takesAHyphenForStandardOutput) {
   EXPECT_EQ(hyphen.exit_code, 0);
   EXPECT_EQ(hyphen.out, plain.out);
   EXPECT_EQ(ursula.files(), 0u) << "a file of that name, perhaps";
-  ASSERT_EQ(ursula("inverse --samples 3 --out file.csv " + helix).exit_code, 0);
-  EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "file.csv"), plain.out);
+  ursula.passing("inverse --samples 3 --out file.csv " + helix);
+  EXPECT_EQ(ursula.read("file.csv"), plain.out);
 }
 
 TEST(Inverse, refusesFewerThanTwoSamples) {

@@ -38,7 +38,7 @@ std::string lapackIn(const Json& summary) { return summary.at("provenance").at("
 
 TEST(MachinesLapack, isNotTheOneThatSimbodyCalls) {
   const Program ursula;
-  ASSERT_EQ(judged(ursula, "", "fresh"), 0) << TemporaryFolder::read(ursula.folder() / "err");
+  ASSERT_EQ(judged(ursula, "", "fresh"), 0) << ursula.read("err");
   const auto fresh = contents(ursula.folder() / "fresh");
   const std::string called = lapackIn(summaryIn(ursula, "fresh"));
   EXPECT_EQ(called.rfind("lapack/liblapack.so.3", 0), 0U) << called;

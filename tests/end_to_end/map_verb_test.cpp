@@ -14,8 +14,7 @@ namespace ursula {
 namespace {
 
 CsvTable mapOf(const Program& ursula, const std::string& arguments) {
-  const UrsulaRun run = ursula("map " + helix + " " + arguments);
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const UrsulaRun run = ursula.passing("map " + helix + " " + arguments);
   return parseCsv(run.out, "stdout", {{}, false, {}});
 }
 
@@ -62,14 +61,12 @@ TEST(Map, saysWhatIsOutOfReachAndDrawsItGrey) {
   }
   EXPECT_GT(reached, 0u);
   EXPECT_LT(reached, table.rows());
-  const UrsulaRun run = ursula("map " + helix + " --x=-9,9,7 --y=-9,9,7 --picture map.svg --out map.csv --jobs 7");
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  const std::string picture = TemporaryFolder::read(ursula.folder() / "map.svg");
+  ursula.passing("map " + helix + " --x=-9,9,7 --y=-9,9,7 --picture map.svg --out map.csv --jobs 7");
+  const std::string picture = ursula.read("map.svg");
   for (const char* part :
        {"<svg", "<path style=\"fill:#bbb\"", "x in m", "y in m", "κ(B)", "largest static effort, N·m"})
     EXPECT_THAT(picture, HasSubstr(part));
-  EXPECT_EQ(parseCsv(TemporaryFolder::read(ursula.folder() / "map.csv"), "map.csv", {{}, false, {}}).at("reach"),
-            table.at("reach"));
+  EXPECT_EQ(parseCsv(ursula.read("map.csv"), "map.csv", {{}, false, {}}).at("reach"), table.at("reach"));
 }
 
 TEST(Map, refusesGridsThatCannotBe) {

@@ -18,10 +18,10 @@ class MechanismColumns : public testing::Test {
   MechanismColumns() {
     for (const std::string file : {"delta.toml", "delta.xml"})
       ursula_.write(file, TemporaryFolder::read(std::string(URSULA_VECTORS "/loops/") + file));
-    const std::string text = TemporaryFolder::read(ursula_.folder() / "delta.toml");
+    const std::string text = ursula_.read("delta.toml");
     ursula_.write("own.toml",
                   text.substr(0, text.find("[trajectory]")) + "[trajectory]\nkind = \"samples\"\nfile = \"own.csv\"\n");
-    EXPECT_EQ(ursula_("inverse delta.toml --samples 201 --out motion.csv").exit_code, 0);
+    ursula_.passing("inverse delta.toml --samples 201 --out motion.csv");
     const CsvTable motion = read("motion.csv");
     const auto scaled = [&](const std::string& name, double factor) {
       std::vector<double> out = motion.at(name);
@@ -45,8 +45,7 @@ class MechanismColumns : public testing::Test {
 };
 
 TEST_F(MechanismColumns, areNamedByTheMap) {
-  const UrsulaRun run = ursula_("inverse own.toml --samples 201 --out found.csv" + motion_);
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const UrsulaRun run = ursula_.passing("inverse own.toml --samples 201 --out found.csv" + motion_);
   EXPECT_THAT(run.err, HasSubstr("own.csv: read as: t_s = 'Clock' times 0.001, q_1_rad = 'enc A' times 0.01745329"));
   const auto difference = [&] {
     double out = 0;
@@ -56,12 +55,11 @@ TEST_F(MechanismColumns, areNamedByTheMap) {
     return out;
   };
   EXPECT_LT(difference(), 1e-5) << "a spline through 201 samples";
-  const UrsulaRun swapped = ursula_("inverse own.toml --samples 201 --out found.csv" + time_ +
-                                    " --map q_1_deg='enc B' --map q_2_deg='enc A' --map q_3_deg='enc C'");
-  ASSERT_EQ(swapped.exit_code, 0) << swapped.err;
+  ursula_.passing("inverse own.toml --samples 201 --out found.csv" + time_ +
+                  " --map q_1_deg='enc B' --map q_2_deg='enc A' --map q_3_deg='enc C'");
   EXPECT_GT(difference(), 0.01);
-  EXPECT_EQ(ursula_("check own.toml" + motion_).exit_code, 0);
-  EXPECT_EQ(ursula_("direct own.toml own.csv --out direct.csv" + motion_).exit_code, 0);
+  ursula_.passing("check own.toml" + motion_);
+  ursula_.passing("direct own.toml own.csv --out direct.csv" + motion_);
 }
 
 TEST_F(MechanismColumns, ofMotionAndEffortsAreNamedByOneMap) {
@@ -69,9 +67,8 @@ TEST_F(MechanismColumns, ofMotionAndEffortsAreNamedByOneMap) {
   const UrsulaRun right = ursula_(judged + "efforts.csv" + motion_ + efforts_);
   EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
   EXPECT_THAT(right.err, AllOf(HasSubstr("own.csv: read as: t_s = 'Clock'"), HasSubstr("efforts.csv: read as: t_s")));
-  const UrsulaRun wrong = ursula_(judged + "efforts.csv" + motion_ +
-                                  " --map tau_1_Nm='cur B' --map tau_2_Nm='cur A' --map tau_3_Nm='cur C'");
-  EXPECT_EQ(wrong.exit_code, 1) << wrong.err;
+  ursula_.ending(
+      1, judged + "efforts.csv" + motion_ + " --map tau_1_Nm='cur B' --map tau_2_Nm='cur A' --map tau_3_Nm='cur C'");
 }
 
 TEST_F(MechanismColumns, thatNoFileUsesAreNamed) {
@@ -90,9 +87,9 @@ TEST_F(MechanismColumns, thatNoFileUsesAreNamed) {
 }
 
 TEST_F(MechanismColumns, ofTimeAreUnderstoodAsThoseOfEfforts) {
-  std::string text = TemporaryFolder::read(ursula_.folder() / "own.csv");
+  std::string text = ursula_.read("own.csv");
   ursula_.write("own.csv", text.replace(0, 5, "Time [ms]"));
-  EXPECT_EQ(ursula_("check own.toml" + motion_.substr(time_.size())).exit_code, 0);
+  ursula_.passing("check own.toml" + motion_.substr(time_.size()));
 }
 
 }  // namespace

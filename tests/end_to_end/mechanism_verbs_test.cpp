@@ -53,7 +53,7 @@ TEST_F(MechanismVerbs, thoseThatTakeNoneSaySoInOneWay) {
 }
 
 TEST_F(MechanismVerbs, aScenarioHasOneMachine) {
-  const std::string delta = TemporaryFolder::read(ursula_.folder() / "delta.toml");
+  const std::string delta = ursula_.read("delta.toml");
   ursula_.write("both.toml", delta + "[manipulator]\n");
   ursula_.write("none.toml", "name = \"none\"\n");
   for (const std::string verb : {"check", "validate", "inverse", "map"})
@@ -75,9 +75,8 @@ TEST_F(MechanismVerbs, noOutputReplacesTheModel) {
 
 TEST_F(MechanismVerbs, directFindsTheAssembliesOfTheMotion) {
   for (const std::string machine : {"delta", "fourbar"}) {
-    ASSERT_EQ(ursula_("inverse " + machine + ".toml --samples 21 --out motion.csv").exit_code, 0);
-    const UrsulaRun run = ursula_("direct " + machine + ".toml motion.csv --out found.csv");
-    ASSERT_EQ(run.exit_code, 0) << run.err;
+    ursula_.passing("inverse " + machine + ".toml --samples 21 --out motion.csv");
+    ursula_.passing("direct " + machine + ".toml motion.csv --out found.csv");
     std::size_t common = 0;
     EXPECT_LT(largestDifference(read("found.csv"), read("motion.csv"), &common), 1e-13);
     EXPECT_EQ(common, read("found.csv").names.size() - 7) << "all but the output's pose";
@@ -92,8 +91,7 @@ TEST_F(MechanismVerbs, directFindsTheAssembliesOfTheMotion) {
 TEST_F(MechanismVerbs, directTakesJointsNamesAndNoTime) {
   ursula_.write("named.csv", "arm2_motor_rad,arm0_motor_rad,q_2_rad\n0.1,0.2,0.3\n");
   ursula_.write("numbered.csv", "q_1_rad,q_2_rad,q_3_rad\n0.2,0.3,0.1\n");
-  const UrsulaRun named = ursula_("direct delta.toml named.csv");
-  EXPECT_EQ(named.exit_code, 0) << named.err;
+  const UrsulaRun named = ursula_.passing("direct delta.toml named.csv");
   EXPECT_EQ(named.out, ursula_("direct delta.toml numbered.csv").out);
   EXPECT_EQ(named.out.substr(0, 8), "q_1_rad,");
 }
@@ -111,7 +109,7 @@ TEST_F(MechanismVerbs, directRefusesWithTheRowsPlace) {
 }
 
 TEST_F(MechanismVerbs, aModelInPlaceOfAScenarioIsToldWhatMakesOne) {
-  ASSERT_EQ(ursula_("export " + helix + " --format mjcf --out hexapod.xml").exit_code, 0);
+  ursula_.passing("export " + helix + " --format mjcf --out hexapod.xml");
   ursula_.write("page.xml", "<html></html>\n");
   const std::string is_model = ": error: this is a model, and a scenario is expected, which ursula ";
   Refusals calls;
@@ -125,31 +123,28 @@ TEST_F(MechanismVerbs, aModelInPlaceOfAScenarioIsToldWhatMakesOne) {
 }
 
 TEST_F(MechanismVerbs, importSaysWhereAnotherMachineGoes) {
-  ASSERT_EQ(ursula_("export " + helix + " --format mjcf --out hexapod.xml").exit_code, 0);
+  ursula_.passing("export " + helix + " --format mjcf --out hexapod.xml");
   expectRefused(ursula_, {{"import delta.xml", "As a machine of another kind: ursula init my.toml --model delta.xml"}});
-  const UrsulaRun wrong = ursula_("import hexapod.xml --platform nobody");
-  EXPECT_EQ(wrong.exit_code, 2);
+  const UrsulaRun wrong = ursula_.ending(2, "import hexapod.xml --platform nobody");
   EXPECT_EQ(wrong.err.find("another kind"), std::string::npos) << wrong.err;
 }
 
 TEST_F(MechanismVerbs, importLeavesOutWhatItIsTold) {
-  ASSERT_EQ(ursula_("export " + helix + " --format mjcf --out hexapod.xml").exit_code, 0);
-  std::string text = TemporaryFolder::read(ursula_.folder() / "hexapod.xml");
+  ursula_.passing("export " + helix + " --format mjcf --out hexapod.xml");
+  std::string text = ursula_.read("hexapod.xml");
   const std::size_t hinge = text.find("type=\"hinge\"");
   ASSERT_NE(hinge, std::string::npos);
   ursula_.write("springs.xml", text.insert(hinge, "stiffness=\"3\" "));
   expectRefused(ursula_, {{"import springs.xml", "springs.xml"},
                           {"import springs.xml --leave-out sprigs", "--leave-out: 'sprigs', expected fluid"}});
-  const UrsulaRun without = ursula_("import springs.xml --leave-out springs");
-  EXPECT_EQ(without.exit_code, 0) << without.err;
+  const UrsulaRun without = ursula_.passing("import springs.xml --leave-out springs");
   EXPECT_THAT(without.err, HasSubstr("Its spring is left out"));
 }
 
 TEST_F(MechanismVerbs, initWritesAScenarioThatPasses) {
-  ASSERT_EQ(ursula_("init 'my \"own\".toml' --model delta.xml").exit_code, 0);
-  ASSERT_EQ(ursula_("init fourbar_sdf.toml --model fourbar.sdf --motors crank_hinge").exit_code, 0);
-  const UrsulaRun check = ursula_("check 'my \"own\".toml' fourbar_sdf.toml");
-  EXPECT_EQ(check.exit_code, 0) << check.err;
+  ursula_.passing("init 'my \"own\".toml' --model delta.xml");
+  ursula_.passing("init fourbar_sdf.toml --model fourbar.sdf --motors crank_hinge");
+  const UrsulaRun check = ursula_.passing("check 'my \"own\".toml' fourbar_sdf.toml");
   const UrsulaRun verdict = ursula_("validate 'my \"own\".toml' --quiet --out results");
   EXPECT_EQ(verdict.exit_code, 0) << verdict.out << verdict.err;
 }
@@ -165,17 +160,16 @@ TEST_F(MechanismVerbs, initAsksForMotorsThatNobodyNames) {
 }
 
 TEST_F(MechanismVerbs, namesMayHaveQuotes) {
-  std::string text = TemporaryFolder::read(ursula_.folder() / "fourbar.sdf");
+  std::string text = ursula_.read("fourbar.sdf");
   for (std::size_t at = 0; (at = text.find("\"crank_hinge\"", at)) != std::string::npos;)
     text.replace(at, 13, "'the \"crank\" \\ hinge'");
   ursula_.write("quoted.sdf", text);
-  ASSERT_EQ(ursula_("init new.toml --model quoted.sdf --motors 'the \"crank\" \\ hinge'").exit_code, 0);
-  const UrsulaRun check = ursula_("check new.toml");
-  EXPECT_EQ(check.exit_code, 0) << check.err;
+  ursula_.passing("init new.toml --model quoted.sdf --motors 'the \"crank\" \\ hinge'");
+  const UrsulaRun check = ursula_.passing("check new.toml");
 }
 
 TEST_F(MechanismVerbs, motorsAreNotEmpty) {
-  std::string text = TemporaryFolder::read(ursula_.folder() / "fourbar.toml");
+  std::string text = ursula_.read("fourbar.toml");
   ursula_.write("none.toml", text.replace(text.find("[\"crank_hinge\"]"), 15, "[]"));
   expectRefused(ursula_, {{"check none.toml", "none.toml:4:10: error: mechanism.motors: [], expected the names"}});
 }
@@ -189,16 +183,15 @@ const std::string swept =
 
 TEST_F(MechanismVerbs, sweepFindsTheLargestEffortsOfItsPoints) {
   ursula_.write("sweep.toml", swept);
-  const UrsulaRun run = ursula_("sweep sweep.toml --db sweep.db");
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const UrsulaRun run = ursula_.passing("sweep sweep.toml --db sweep.db");
   EXPECT_THAT(run.out, HasSubstr("8 points: 8 pass"));
-  ASSERT_EQ(ursula_("sweep report sweep.db --out page --csv rows.csv").exit_code, 0);
+  ursula_.passing("sweep report sweep.db --out page --csv rows.csv");
   std::set<double> found;
   const CsvTable rows =
       readCsv(ursula_.folder() / "rows.csv", {[](const std::string& name) { return name == "tau_1_Nm"; }});
   for (int i = 0; i < 8; ++i) {
     ursula_.write("point.toml", ursula_("sweep show sweep.toml " + std::to_string(i)).out);
-    ASSERT_EQ(ursula_("inverse point.toml --samples 11 --out point.csv").exit_code, 0);
+    ursula_.passing("inverse point.toml --samples 11 --out point.csv");
     double largest = 0;
     const CsvTable point = read("point.csv");
     for (const double effort : point.at("tau_1_Nm")) largest = std::max(largest, std::abs(effort));
@@ -215,7 +208,7 @@ TEST_F(MechanismVerbs, sweepRefusesNumbersThatTheModelDoesNotHave) {
   ursula_.write("a.toml", with(swept, "arm0_motor", "arm0_moter"));
   ursula_.write("b.toml", with(swept, "sin.0", "sine.0"));
   ursula_.write("d.toml", with(with(swept, "samples", "pointwise = true\nsamples"), "inverse", "validate"));
-  const std::string delta = TemporaryFolder::read(ursula_.folder() / "delta.toml");
+  const std::string delta = ursula_.read("delta.toml");
   ursula_.write("numbers.toml", delta + "[mechanism.numbers]\n\"body.nobody.mass\" = 1\n");
   expectRefused(ursula_,
                 {{"sweep a.toml", "a.toml:9:7: error: 'joint.arm0_moter.damping', the model has no such number"},
@@ -225,16 +218,16 @@ TEST_F(MechanismVerbs, sweepRefusesNumbersThatTheModelDoesNotHave) {
 }
 
 TEST_F(MechanismVerbs, numbersOfAScenarioAreThoseOfAnEditedModel) {
-  std::string model = TemporaryFolder::read(ursula_.folder() / "fourbar.xml");
+  std::string model = ursula_.read("fourbar.xml");
   const std::string old = "mass=\"1.2\" fullinertia=\"0.00813263066084988 ";
   ASSERT_NE(model.find(old), std::string::npos);
   ursula_.write("edited.xml", model.replace(model.find(old), old.size(), "mass=\"1.5\" fullinertia=\"0.0085 "));
-  std::string text = TemporaryFolder::read(ursula_.folder() / "fourbar.toml");
+  std::string text = ursula_.read("fourbar.toml");
   ursula_.write("numbers.toml",
                 text + "[mechanism.numbers]\n\"body.crank.mass\" = 1.5\n\"body.crank.inertia.xx\" = 0.0085\n");
   ursula_.write("edited.toml", text.replace(text.find("fourbar.xml"), 11, "edited.xml"));
   for (const std::string name : {"numbers", "edited", "fourbar"})
-    ASSERT_EQ(ursula_("inverse " + name + ".toml --samples 5 --out " + name + ".csv").exit_code, 0);
+    ursula_.passing("inverse " + name + ".toml --samples 5 --out " + name + ".csv");
   EXPECT_LT(largestDifference(read("numbers.csv"), read("edited.csv")), 1e-12);
   EXPECT_GT(largestDifference(read("numbers.csv"), read("fourbar.csv")), 1e-3);
 }
@@ -245,7 +238,7 @@ class SimulateMechanism : public MechanismVerbs, public testing::WithParamInterf
 };
 
 TEST_P(SimulateMechanism, theRightEffortsMakeTheMotion) {
-  ASSERT_EQ(ursula_("inverse delta.toml --samples 301 --out commanded.csv").exit_code, 0);
+  ursula_.passing("inverse delta.toml --samples 301 --out commanded.csv");
   const UrsulaRun run = simulate("delta.toml --out made.csv");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   std::size_t common = 0;
@@ -253,12 +246,12 @@ TEST_P(SimulateMechanism, theRightEffortsMakeTheMotion) {
   EXPECT_EQ(common, 13u) << "t, q, qdot, qddot, tau";
   const std::vector<double> closure = read("made.csv").at("closure_m");
   EXPECT_LT(*std::max_element(closure.begin(), closure.end()), 1e-12);
-  ASSERT_EQ(ursula_("direct delta.toml commanded.csv --out poses.csv").exit_code, 0);
+  ursula_.passing("direct delta.toml commanded.csv --out poses.csv");
   EXPECT_LT(largestDifference(read("made.csv"), read("poses.csv")), 1e-9) << "the output body's pose";
 }
 
 TEST_P(SimulateMechanism, effortsOfAFileMakeItToo) {
-  ASSERT_EQ(ursula_("inverse fourbar.toml --samples 301 --out commanded.csv").exit_code, 0);
+  ursula_.passing("inverse fourbar.toml --samples 301 --out commanded.csv");
   const UrsulaRun run = simulate("fourbar.toml --torques commanded.csv --out made.csv");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("are ignored: q_1_rad"));
@@ -266,7 +259,7 @@ TEST_P(SimulateMechanism, effortsOfAFileMakeItToo) {
 }
 
 TEST_P(SimulateMechanism, otherEffortsMakeAnotherMotion) {
-  ASSERT_EQ(ursula_("inverse delta.toml --samples 61 --out commanded.csv").exit_code, 0);
+  ursula_.passing("inverse delta.toml --samples 61 --out commanded.csv");
   const CsvTable right = read("commanded.csv");
   std::string text = "t_s,tau_1_Nm,tau_2_Nm,tau_3_Nm\n";
   for (std::size_t i = 0; i < 21; ++i) {

@@ -25,7 +25,7 @@ int limited(const Program& ursula, int megabytes, const std::string& arguments) 
                "ulimit -v " + std::to_string(1000 * megabytes) + " && \"$URSULA\" " + arguments + " >said 2>err");
 }
 
-std::string complaint(const Program& ursula) { return TemporaryFolder::read(ursula.folder() / "err"); }
+std::string complaint(const Program& ursula) { return ursula.read("err"); }
 
 const auto saysMemory = AnyOf(HasSubstr("out of memory"), HasSubstr("llocate memory"), HasSubstr("no memory"));
 
@@ -82,7 +82,7 @@ TEST(LittleMemory, aRunPassesOrLeavesTheOldResults) {
   ursula.write("a.toml", quickScenario("one"));
   ursula.write("b.toml", quickScenario("one", "499.0"));
   const Call call(ursula, "validate a.toml --jobs 2 --out at/out");
-  ASSERT_EQ(ursula("validate b.toml --quiet --out old/out").exit_code, passed);
+  ursula.passing("validate b.toml --quiet --out old/out");
   holdsUnderEveryLimit(call);
 }
 
@@ -102,7 +102,7 @@ TEST(LittleMemory, aFileIsWholeOrTheOldOne) {
 TEST(LittleMemory, whatNeedsMoreThanThereIsIsRefused) {
   const Program ursula;
   ursula.write("a.toml", quickScenario("one"));
-  ASSERT_EQ(ursula("inverse a.toml --samples 40001 --out big.csv").exit_code, passed);
+  ursula.passing("inverse a.toml --samples 40001 --out big.csv");
   const Call call(ursula, "compare big.csv big.csv --out at/out.csv");
   ursula.write("old/out.csv", "old\n");
   const int times_refused = holdsUnderEveryLimit(call);
@@ -120,7 +120,7 @@ TEST(LittleMemory, manySamplesFit) {
   ursula.write("a.toml", withSamples(4000));
   ASSERT_EQ(shell(ursula, "ulimit -v 150000 && \"$URSULA\" validate a.toml --jobs 1 --out out 2>err"), passed)
       << complaint(ursula);
-  const std::string series = TemporaryFolder::read(ursula.folder() / "out" / "timeseries.csv");
+  const std::string series = ursula.read("out/timeseries.csv");
   EXPECT_EQ(std::count(series.begin(), series.end(), '\n'), 4001);
 }
 
@@ -149,7 +149,7 @@ TEST(LittleMemory, oneOfASuiteIsInErrorOrWhatItIsAnywhere) {
     const auto found = call.results();
     for (const auto& [file, content] : found) EXPECT_TRUE(fresh.count(file) == 1 && fresh.at(file) == content) << file;
     if (exit_code == in_error_of_suite) {
-      EXPECT_THAT(complaint(ursula) + TemporaryFolder::read(ursula.folder() / "said"), saysMemory) << limit;
+      EXPECT_THAT(complaint(ursula) + ursula.read("said"), saysMemory) << limit;
     } else {
       EXPECT_TRUE(found == (exit_code == passed ? fresh : call.old())) << limit;
     }
@@ -166,7 +166,7 @@ TEST(LittleMemory, losesNoRowOfASweep) {
   const auto rows = [&ursula](const std::string& database) {
     return ursula("sweep report " + database + " --csv -").out;
   };
-  ASSERT_EQ(ursula("sweep s.toml --db fresh.db").exit_code, passed);
+  ursula.passing("sweep s.toml --db fresh.db");
   const std::string fresh = rows("fresh.db");
   ASSERT_EQ(std::count(fresh.begin(), fresh.end(), '\n'), 13);
   for (const int limit : limits) {
@@ -179,7 +179,7 @@ TEST(LittleMemory, losesNoRowOfASweep) {
       continue;
     }
     EXPECT_THAT(complaint(ursula) + rows("s.db"), saysMemory) << limit;
-    EXPECT_EQ(ursula("sweep s.toml --db s.db --retry-errors").exit_code, passed);
+    ursula.passing("sweep s.toml --db s.db --retry-errors");
     EXPECT_EQ(rows("s.db"), fresh) << limit;
   }
 }

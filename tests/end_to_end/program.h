@@ -40,6 +40,15 @@ class Program {
     return run;
   }
 
+  /// The same of a call from which this exit code is expected.
+  UrsulaRun ending(int exit_code, const std::string& arguments) const {
+    UrsulaRun run = (*this)(arguments);
+    EXPECT_EQ(run.exit_code, exit_code) << arguments << "\n" << run.out << run.err;
+    return run;
+  }
+  UrsulaRun passing(const std::string& arguments) const { return ending(0, arguments); }
+
+  std::string read(const std::string& name) const { return TemporaryFolder::read(folder() / name); }
   std::filesystem::path write(const std::string& name, const std::string& content) const {
     return folder_.write(name, content);
   }

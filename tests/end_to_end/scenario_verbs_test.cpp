@@ -17,20 +17,19 @@ using testing::ContainsRegex;
 
 TEST(Init, writesAScenarioThatPassesTheCheckAndCanBeComputed) {
   const Program ursula;
-  EXPECT_EQ(ursula("init robot.toml").exit_code, 0);
-  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "robot.toml"), HasSubstr("name = \"robot\""));
-  const UrsulaRun check = ursula("check robot.toml");
-  EXPECT_EQ(check.exit_code, 0) << check.err;
+  ursula.passing("init robot.toml");
+  EXPECT_THAT(ursula.read("robot.toml"), HasSubstr("name = \"robot\""));
+  const UrsulaRun check = ursula.passing("check robot.toml");
   EXPECT_THAT(check.out, StartsWith("robot.toml: the scenario and its motion are valid; 0 warnings\nnot shown"));
-  EXPECT_EQ(ursula("inverse robot.toml --samples 3").exit_code, 0);
+  ursula.passing("inverse robot.toml --samples 3");
   EXPECT_EQ(ursula("init - --kind URS").out.substr(0, 2), "# ");
   EXPECT_EQ(ursula.files(), 1u);
 }
 
 TEST(Init, tellsEditorsWhereTheSchemaIs) {
   const Program ursula;
-  ASSERT_EQ(ursula("init robot.toml --kind UPS").exit_code, 0);
-  const std::string text = TemporaryFolder::read(ursula.folder() / "robot.toml"), directive = "#:schema ";
+  ursula.passing("init robot.toml --kind UPS");
+  const std::string text = ursula.read("robot.toml"), directive = "#:schema ";
   ASSERT_THAT(text, StartsWith(directive));
   const std::string path = text.substr(directive.size(), text.find('\n') - directive.size());
   EXPECT_THAT(path, StartsWith("/"));
@@ -41,13 +40,13 @@ TEST(Init, neverOverwrites) {
   const Program ursula;
   ursula.write("mine.toml", "mine");
   expectRefused(ursula, {{"init mine.toml", "mine.toml exists, expected the name of a new file"}});
-  EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "mine.toml"), "mine");
+  EXPECT_EQ(ursula.read("mine.toml"), "mine");
 }
 
 TEST(Init, turnsLengthsInMillimetresIntoMetres) {
   const Program ursula;
-  ASSERT_EQ(ursula("init metres.toml --kind UPS").exit_code, 0);
-  std::string text = TemporaryFolder::read(ursula.folder() / "metres.toml");
+  ursula.passing("init metres.toml --kind UPS");
+  std::string text = ursula.read("metres.toml");
   const auto replace = [&](const std::string& old, const std::string& now) {
     ASSERT_NE(text.find(old), std::string::npos) << old;
     text.replace(text.find(old), old.size(), now);
@@ -56,12 +55,12 @@ TEST(Init, turnsLengthsInMillimetresIntoMetres) {
   replace(links, "\"length\" = 1_100, mass = 25.0, center_of_mass = { value = 500, tolerance = 5 }");
   replace("name = \"metres\"", "name = \"µm\"; base_point = 1");
   ursula.write("broken.toml", text);
-  EXPECT_EQ(ursula("init new.toml --from broken.toml --lengths mm").exit_code, 2);
+  ursula.ending(2, "init new.toml --from broken.toml --lengths mm");
   replace("; base_point = 1", "  # base_point = 1");
   replace("base_point = " + point, "base_point = [1181.8, -208.4, 0.0]  # µ 7");
   ursula.write("millimetres.toml", text);
-  EXPECT_EQ(ursula("init new.toml --from millimetres.toml --lengths mm").exit_code, 0);
-  const std::string made = TemporaryFolder::read(ursula.folder() / "new.toml");
+  ursula.passing("init new.toml --from millimetres.toml --lengths mm");
+  const std::string made = ursula.read("new.toml");
   EXPECT_THAT(made, HasSubstr("\"length\" = 1.1, mass = 25.0, center_of_mass = { value = 0.5, tolerance = 0.005 }"));
   EXPECT_THAT(made, HasSubstr("base_point = [1.1818, -0.2084, 0]  # µ 7"));
   EXPECT_THAT(made, HasSubstr("\"µm\"  # base_point = 1"));
@@ -72,15 +71,13 @@ class InitKind : public testing::TestWithParam<const char*> {};
 TEST_P(InitKind, writesAScenarioThatPassesTheCheckAndCanBeComputed) {
   const Program ursula;
   const std::string kind = GetParam();
-  EXPECT_EQ(ursula("init robot.toml --kind " + kind).exit_code, 0);
-  const std::string text = TemporaryFolder::read(ursula.folder() / "robot.toml");
+  ursula.passing("init robot.toml --kind " + kind);
+  const std::string text = ursula.read("robot.toml");
   EXPECT_THAT(text, HasSubstr("name = \"robot\""));
   EXPECT_THAT(text, HasSubstr("\nkind = \"" + kind + "\""));
-  const UrsulaRun check = ursula("check robot.toml --picture robot.svg");
-  EXPECT_EQ(check.exit_code, 0) << check.err;
+  const UrsulaRun check = ursula.passing("check robot.toml --picture robot.svg");
   EXPECT_THAT(check.out, StartsWith("robot.toml: the scenario and its motion are valid; 0 warnings\nnot shown"));
-  const UrsulaRun inverse = ursula("inverse robot.toml --samples 3");
-  EXPECT_EQ(inverse.exit_code, 0) << inverse.err;
+  const UrsulaRun inverse = ursula.passing("inverse robot.toml --samples 3");
   EXPECT_THAT(inverse.out, HasSubstr(kind == "RUS" ? ",tau_6_Nm\n" : ",tau_6_N\n"));
 }
 
@@ -96,12 +93,11 @@ TEST(Init, refusesKindsThatThereAreNot) {
 TEST(CheckVerb, warnsAndPasses) {
   const Program ursula;
   ursula.write("a.toml", replaced(good_scenario, "[manipulator]\n", "[manipulator]\ngravity = [0, 0, 9.81]\n"));
-  const UrsulaRun run = ursula("check a.toml --picture a.svg");
-  EXPECT_EQ(run.exit_code, 0);
+  const UrsulaRun run = ursula.passing("check a.toml --picture a.svg");
   EXPECT_THAT(run.out, AllOf(HasSubstr("a.toml:4:11: warning: manipulator.gravity: its z is +9.81 m/s2"),
                              HasSubstr("a.toml: the scenario and its motion are valid; 1 warning\n")));
   EXPECT_EQ(run.err, "");
-  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "a.svg"), HasSubstr("</svg>"));
+  EXPECT_THAT(ursula.read("a.svg"), HasSubstr("</svg>"));
 }
 
 std::size_t countOf(const std::string& text, const std::string& what) {
@@ -114,7 +110,7 @@ TEST(Warnings, ofCheckAreSaidOnceByEachVerbThatUsesTheMotion) {
   const Program ursula;
   ursula.write("good.toml", good_scenario);
   ursula.write("odd.toml", replaced(good_scenario, "[manipulator]\n", "[manipulator]\ngravity = [0, 0, 9.81]\n"));
-  ASSERT_EQ(ursula("inverse good.toml --samples 31 --out tau.csv").exit_code, 0);
+  ursula.passing("inverse good.toml --samples 31 --out tau.csv");
   for (const std::string name : {"good", "odd"}) {
     ursula.write("of_" + name + ".toml", "scenario = \"" + name +
                                              ".toml\"\nwhat = \"inverse\"\ndesign = \"grid\"\n[[vary]]\nkey = "
@@ -137,8 +133,8 @@ TEST(CheckVerb, doesNotReplaceTheScenarioThatItsInputIs) {
   const Program ursula;
   ursula.write("my.toml", good_scenario);
   expectRefused(ursula, {{"check - --picture my.toml <my.toml", "the program reads this file, expected another file"}});
-  EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "my.toml"), good_scenario);
-  EXPECT_EQ(ursula("check - --picture my.svg <my.toml").exit_code, 0);
+  EXPECT_EQ(ursula.read("my.toml"), good_scenario);
+  ursula.passing("check - --picture my.svg <my.toml");
   EXPECT_EQ(ursula("check - --picture /dev/null").exit_code, 2) << "an empty input is no scenario";
 }
 
@@ -153,8 +149,8 @@ std::string utf8File(const std::filesystem::path& file) {
 TEST(Latin1, inALogOrAFilesNameIsWrittenAsUtf8) {
   const Program ursula;
   ursula.write("m\xb5.toml", good_scenario);
-  ASSERT_EQ(ursula("inverse m\xb5.toml --samples 301 --out own.csv").exit_code, 0);
-  std::string log = TemporaryFolder::read(ursula.folder() / "own.csv");
+  ursula.passing("inverse m\xb5.toml --samples 301 --out own.csv");
+  std::string log = ursula.read("own.csv");
   for (auto at = log.find('\n'); at != std::string::npos; at = log.find('\n', at + 3))
     log.insert(at, at == log.find('\n') ? ",\xb5" : ",0");
   ursula.write("l\xb0.csv", log);
@@ -165,22 +161,22 @@ TEST(Latin1, inALogOrAFilesNameIsWrittenAsUtf8) {
   EXPECT_TRUE(utf8(run.err) == run.err);
   EXPECT_THAT(utf8File(ursula.folder() / "o\xb5/summary.json"), HasSubstr("\"µ\""));
   utf8File(ursula.folder() / "o\xb5/report.html");
-  EXPECT_EQ(ursula("validate m\xb5.toml --time-limit 0.1 --out v").exit_code, 3);
+  ursula.ending(3, "validate m\xb5.toml --time-limit 0.1 --out v");
   for (const char* file : {"summary.json", "report.html", "junit.xml"})
     EXPECT_THAT(utf8File(ursula.folder() / "v" / file), HasSubstr("mµ.toml")) << file;
   ursula.write("s\xb5.toml",
                "scenario = \"own.toml\"\nwhat = \"inverse\"\ndesign = \"grid\"\n[[vary]]\nkey = "
                "\"manipulator.platform.mass\"\nvalues = [500.0]\n");
   ursula.write("own.toml", good_scenario);
-  ASSERT_EQ(ursula("sweep s\xb5.toml --db s.db").exit_code, 0);
-  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "s.db"), HasSubstr("sµ.toml"));
+  ursula.passing("sweep s\xb5.toml --db s.db");
+  EXPECT_THAT(ursula.read("s.db"), HasSubstr("sµ.toml"));
 }
 
 TEST(CheckVerb, drawsAPngWhereTheNameEndsSo) {
   const Program ursula;
   ursula.write("a.toml", good_scenario);
-  ASSERT_EQ(ursula("check a.toml --picture a.png").exit_code, 0);
-  const std::string png = TemporaryFolder::read(ursula.folder() / "a.png");
+  ursula.passing("check a.toml --picture a.png");
+  const std::string png = ursula.read("a.png");
   EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
   EXPECT_GT(png.size(), 2000U);
   ursula.write("a.png", "kept");
@@ -190,15 +186,14 @@ TEST(CheckVerb, drawsAPngWhereTheNameEndsSo) {
   ::setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(without.exit_code, 2);
   EXPECT_THAT(without.err, HasSubstr("librsvg2-bin"));
-  EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "a.png"), "kept");
+  EXPECT_EQ(ursula.read("a.png"), "kept");
   for (const char* verb : {"check", "map"})
     EXPECT_THAT(ursula(std::string(verb) + " --help").out, HasSubstr("librsvg2-bin"));
 }
 
 TEST(CheckVerb, listsWhatCannotShowAsJson) {
   const Program ursula;
-  const UrsulaRun run = ursula("check " + helix + " --json");
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const UrsulaRun run = ursula.passing("check " + helix + " --json");
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json["valid"], true);
   EXPECT_FALSE(json["blind"].empty());
@@ -212,15 +207,14 @@ TEST(CheckVerb, listsWhatCannotShowAsJson) {
 
 TEST(CheckVerb, suggestsAMotionThatShowsMore) {
   const Program ursula;
-  const UrsulaRun run = ursula("check " + helix + " --suggest --out new.toml");
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const UrsulaRun run = ursula.passing("check " + helix + " --suggest --out new.toml");
   EXPECT_THAT(run.err, HasSubstr("do with this motion"));
   const auto count = [&](const std::string& file) {
     return nlohmann::json::parse(ursula("check " + file + " --json").out)["blind"].size();
   };
   EXPECT_LT(count("new.toml"), count(helix));
   EXPECT_EQ(ursula("check " + helix + " --suggest --out new.toml").exit_code, 2) << "never overwrites";
-  EXPECT_EQ(ursula("check " + helix + " --suggest --json").exit_code, 2);
+  ursula.ending(2, "check " + helix + " --suggest --json");
 }
 
 TEST(CheckVerb, exitsWithTwoForErrorsOfAnyScenarioAndNamesThemAll) {
@@ -228,14 +222,13 @@ TEST(CheckVerb, exitsWithTwoForErrorsOfAnyScenarioAndNamesThemAll) {
   ursula.write("good.toml", good_scenario);
   ursula.write("key.toml", replaced(good_scenario, "mass = 500.0", "weight = 500.0"));
   ursula.write("far.toml", replaced(good_scenario, "height_phase = 2.2", "height_phase = 6"));
-  const UrsulaRun run = ursula("check key.toml far.toml good.toml");
-  EXPECT_EQ(run.exit_code, 2);
+  const UrsulaRun run = ursula.ending(2, "check key.toml far.toml good.toml");
   EXPECT_THAT(run.err, AllOf(HasSubstr("key.toml:5:1: error: unknown key 'weight'"),
                              ContainsRegex("far.toml:44:1: error: the motion cannot be made: leg [1-6] is out of reach "
                                            "at t = 0 s: .* it misses by [0-9.]+ m")));
   EXPECT_THAT(run.out, HasSubstr("good.toml: the scenario and its motion are valid"));
-  EXPECT_EQ(ursula("check good.toml").exit_code, 0);
-  EXPECT_EQ(ursula("check good.toml key.toml --picture x.svg").exit_code, 2);
+  ursula.passing("check good.toml");
+  ursula.ending(2, "check good.toml key.toml --picture x.svg");
 }
 
 TEST(CheckVerb, tellsEveryErrorOfAScenario) {
@@ -243,8 +236,7 @@ TEST(CheckVerb, tellsEveryErrorOfAScenario) {
   ursula.write("bad.toml",
                replaced(replaced(good_scenario, "mass = 500.0", "weight = 500.0"), "pitch = 1.2", "pitch = 0"));
   for (const char* verb : {"check", "validate", "inverse"}) {
-    const UrsulaRun run = ursula(std::string(verb) + " bad.toml");
-    EXPECT_EQ(run.exit_code, 2);
+    const UrsulaRun run = ursula.ending(2, std::string(verb) + " bad.toml");
     EXPECT_THAT(run.err, AllOf(HasSubstr("bad.toml:5:1: error: unknown key 'weight'"),
                                HasSubstr("   5 | weight = 500.0\n     | ^\nbad.toml:48:9: error: trajectory.pitch: 0"),
                                HasSubstr("  48 | pitch = 0\n     |         ^\n")));
@@ -257,8 +249,7 @@ TEST(UnreachableMotion, namesPlaceInstantLegAndMetres) {
   const Program ursula;
   ursula.write("far.toml", replaced(good_scenario, "height_phase = 2.2", "height_phase = 3.3"));
   for (const char* verb : {"inverse", "poses", "check", "validate"}) {
-    const UrsulaRun run = ursula(std::string(verb) + " far.toml");
-    EXPECT_EQ(run.exit_code, 2) << verb;
+    const UrsulaRun run = ursula.ending(2, std::string(verb) + " far.toml");
     EXPECT_THAT(run.err, ContainsRegex("far.toml:44:1: error: the motion cannot be made: leg [1-6] is out of reach at "
                                        "t = [0-9.]+ s: .* m apart.* span at most 2.7 m; it misses by [0-9.e-]+ m"))
         << verb;
@@ -276,14 +267,13 @@ TEST(UnreachableMotion, isToldOfLegsOfEveryKind) {
   for (const auto& [kind, words] : kinds) {
     const std::string name = std::string(kind) + ".toml",
                       far = kind == std::string("PUS") ? "[3.5, 0.0, 1.6]" : "[0.0, 0.0, 3.5]";
-    ASSERT_EQ(ursula("init " + name + " --kind " + kind).exit_code, 0);
-    const std::string text = TemporaryFolder::read(ursula.folder() / name), key = "{ time = 0.0, position = ";
+    ursula.passing("init " + name + " --kind " + kind);
+    const std::string text = ursula.read(name), key = "{ time = 0.0, position = ";
     const auto at = text.find(key) + key.size();
     ursula.write(name, text.substr(0, at) + far + text.substr(text.find(']', at) + 1));
-    const UrsulaRun run = ursula("check " + name + " --picture far.svg");
-    EXPECT_EQ(run.exit_code, 2);
+    const UrsulaRun run = ursula.ending(2, "check " + name + " --picture far.svg");
     EXPECT_THAT(run.err, ContainsRegex(words)) << run.err;
-    EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "far.svg"), HasSubstr("class=\"unreached\""));
+    EXPECT_THAT(ursula.read("far.svg"), HasSubstr("class=\"unreached\""));
   }
 }
 

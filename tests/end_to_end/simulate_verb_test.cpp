@@ -71,7 +71,7 @@ TEST_P(Simulate, theRightEffortsMakeTheMotionOfLegsOfEveryKind) {
   for (const std::string kind : {"UPS", "RUS", "PUS"}) {
     const std::string machine = testing::TempDir() + "/simulate_" + GetParam() + "_" + kind + ".toml";
     std::remove(machine.c_str());
-    ASSERT_EQ(ursula_("init '" + machine + "' --kind " + kind).exit_code, 0);
+    ursula_.passing("init '" + machine + "' --kind " + kind);
     const std::string all = ursula_("inverse '" + machine + "' --samples 301").out;
     std::ofstream(file_) << all;  // with columns that simulate ignores
     const UrsulaRun run = ursula_("simulate '" + machine + "' --engine " + GetParam() + " --torques '" + file_ + "'");

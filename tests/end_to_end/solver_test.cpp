@@ -89,11 +89,11 @@ TEST_F(SolverRun, aSimulatorIsJudged) {
   EXPECT_THAT(bad.err,
               AllOf(HasSubstr("the simulator '"), HasSubstr("3 values, expected six"), HasSubstr("question: 0,")));
   EXPECT_FALSE(std::filesystem::exists(folder() / "none"));
-  EXPECT_EQ(ursula_("validate quick.toml --simulator cat --solver cat").exit_code, 2);
+  ursula_.ending(2, "validate quick.toml --simulator cat --solver cat");
 }
 
 TEST_F(SolverRun, aMotionIsJudged) {
-  ASSERT_EQ(ursula_("inverse quick.toml --samples 301 --out right.csv").exit_code, 0);
+  ursula_.passing("inverse quick.toml --samples 301 --out right.csv");
   const UrsulaRun right = ursula_("validate quick.toml --trajectory right.csv --out out --rtol 1e-4");
   EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
   EXPECT_EQ(ursula_("validate quick.toml --trajectory right.csv --torques right.csv --out out --rtol 1e-4").exit_code,
@@ -102,9 +102,9 @@ TEST_F(SolverRun, aMotionIsJudged) {
   const std::string radius = "radius = 0.2";
   ASSERT_NE(text.find(radius), std::string::npos);
   ursula_.write("other.toml", text.replace(text.find(radius), radius.size(), "radius = 0.201"));
-  ASSERT_EQ(ursula_("inverse other.toml --samples 301 --out other.csv").exit_code, 0);
-  EXPECT_EQ(ursula_("validate quick.toml --trajectory other.csv --out out --rtol 1e-4").exit_code, 1);
-  EXPECT_EQ(ursula_("validate quick.toml --trajectory missing.csv --out out").exit_code, 2);
+  ursula_.passing("inverse other.toml --samples 301 --out other.csv");
+  ursula_.ending(1, "validate quick.toml --trajectory other.csv --out out --rtol 1e-4");
+  ursula_.ending(2, "validate quick.toml --trajectory missing.csv --out out");
 }
 
 TEST_F(SolverRun, aWrongOneFails) {
@@ -185,7 +185,7 @@ TEST_F(SolverRun, whatCannotBeMeantIsRefused) {
   EXPECT_THAT(refused("cat", "--torques tau.csv"), HasSubstr("--torques excludes --solver"));
   EXPECT_THAT(refused(""), HasSubstr("expected a command"));
   EXPECT_THAT(refused("cat", "--solver-timeout 0"), HasSubstr("--solver-timeout"));
-  EXPECT_EQ(ursula_("validate quick.toml --solver-timeout 3").exit_code, 2);
+  ursula_.ending(2, "validate quick.toml --solver-timeout 3");
 }
 
 TEST_F(SolverRun, aSuiteStartsItForEachScenario) {

@@ -50,8 +50,7 @@ TEST(Stream, takesNoMoreMemoryForMoreSamples) {
 TEST(Stream, isTheSameForAnyNumberOfThreads) {
   const Program ursula;
   const std::string call = "inverse --samples 5003 '" + helix_file + "' --jobs ";
-  const UrsulaRun one = ursula(call + "1");
-  ASSERT_EQ(one.exit_code, 0) << one.err;
+  const UrsulaRun one = ursula.passing(call + "1");
   for (const char* jobs : {"2", "7"}) EXPECT_EQ(ursula(call + jobs).out, one.out) << jobs;
   EXPECT_EQ(ursula("inverse --samples 5003 --format csv '" + helix_file + "'").out, one.out);
   EXPECT_NE(ursula("inverse --samples 5002 '" + helix_file + "'").out, one.out);
@@ -60,9 +59,9 @@ TEST(Stream, isTheSameForAnyNumberOfThreads) {
 TEST(Stream, binaryHasTheNumbersOfTheCsv) {
   const Program ursula;
   const CsvTable csv = parseCsv(ursula("inverse --samples 1301 '" + helix_file + "'").out, "stdout");
-  ASSERT_EQ(ursula("inverse --samples 1301 --format binary --out out.bin '" + helix_file + "'").exit_code, 0);
+  ursula.passing("inverse --samples 1301 --format binary --out out.bin '" + helix_file + "'");
   EXPECT_EQ(ursula.files(), 1u);
-  const std::string bytes = TemporaryFolder::read(ursula.folder() / "out.bin");
+  const std::string bytes = ursula.read("out.bin");
   const std::string line = bytes.substr(0, bytes.find('\n') + 1);
   const nlohmann::json head = nlohmann::json::parse(line);
   EXPECT_EQ(head.at("columns").get<std::vector<std::string>>(), csv.names);
@@ -86,13 +85,11 @@ TEST(Stream, refusesTheFirstPoseThatCannotBeAndWritesNothing) {
   std::string text = Program::shipped("paper-helix.toml");
   const std::string before = "height_phase = 2.2";
   ursula.write("high.toml", text.replace(text.find(before), before.size(), "height_phase = 3.2"));
-  const UrsulaRun one = ursula("inverse high.toml --samples 9001 --jobs 1 --out file.csv");
-  EXPECT_EQ(one.exit_code, 2);
+  const UrsulaRun one = ursula.ending(2, "inverse high.toml --samples 9001 --jobs 1 --out file.csv");
   EXPECT_THAT(one.err, HasSubstr("leg 6 is out of reach at t = 1.83433 s"));
   for (const char* format : {"csv", "binary"}) {
     const UrsulaRun seven =
-        ursula(std::string("inverse high.toml --samples 9001 --jobs 7 --out file --format ") + format);
-    EXPECT_EQ(seven.exit_code, 2);
+        ursula.ending(2, std::string("inverse high.toml --samples 9001 --jobs 7 --out file --format ") + format);
     EXPECT_EQ(seven.err, one.err);
   }
   EXPECT_EQ(ursula.files(), 1u) << "the scenario alone";

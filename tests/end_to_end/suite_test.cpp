@@ -24,8 +24,7 @@ TEST(SuiteRun, aFolderThatPassesExitsWith0AndWritesEverything) {
   std::filesystem::create_directory(ursula.folder() / "in");
   ursula.write("in/b.toml", quickScenario("second"));
   ursula.write("in/a.toml", quickScenario("first"));
-  const UrsulaRun run = ursula("validate in --jobs 2");
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const UrsulaRun run = ursula.passing("validate in --jobs 2");
   EXPECT_THAT(run.out, AllOf(StartsWith("pass          first   "), HasSubstr("\npass          second  "),
                              HasSubstr("results/suite/first/report.html\n"),
                              EndsWith("2 passed, 0 failed, 0 inconclusive\nindex: results/suite/index.html\n")));
@@ -40,8 +39,7 @@ TEST(SuiteRun, aFolderIsASuiteEvenOfOneScenario) {
   const Program ursula;
   std::filesystem::create_directory(ursula.folder() / "in");
   ursula.write("in/a.toml", quickScenario("alone"));
-  const UrsulaRun run = ursula("validate in");
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const UrsulaRun run = ursula.passing("validate in");
   EXPECT_THAT(run.out, EndsWith("1 passed, 0 failed, 0 inconclusive\nindex: results/suite/index.html\n"));
   for (const char* file : {"index.html", "junit.xml", "suite.json", "alone/report.html"})
     EXPECT_TRUE(isThere(ursula, std::string("results/suite/") + file)) << file;
@@ -51,12 +49,11 @@ TEST(SuiteRun, oneThatFailsMakesTheExitCode1) {
   const Program ursula;
   ursula.write("good.toml", quickScenario("good"));
   ursula.write("tight.toml", tooTight("tight"));
-  const UrsulaRun run = ursula("validate good.toml tight.toml --out out");
-  EXPECT_EQ(run.exit_code, 1) << run.err;
+  const UrsulaRun run = ursula.ending(1, "validate good.toml tight.toml --out out");
   EXPECT_THAT(run.out,
               AllOf(HasSubstr("pass          good   "), HasSubstr("\nfail          tight  torque.pointwise is at "),
                     HasSubstr("1 passed, 1 failed, 0 inconclusive\n")));
-  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "out/junit.xml"), HasSubstr("<failure "));
+  EXPECT_THAT(ursula.read("out/junit.xml"), HasSubstr("<failure "));
 }
 
 void writeOneGoodAndTwoBad(const Program& ursula) {
@@ -68,8 +65,7 @@ void writeOneGoodAndTwoBad(const Program& ursula) {
 TEST(SuiteRun, oneBadScenarioIsItsOwnErrorAndNotTheEndOfTheSuite) {
   const Program ursula;
   writeOneGoodAndTwoBad(ursula);
-  const UrsulaRun run = ursula("validate key.toml good.toml reach.toml --out out");
-  EXPECT_EQ(run.exit_code, 1) << "2 would say that nothing is written";
+  const UrsulaRun run = ursula.ending(1, "validate key.toml good.toml reach.toml --out out");
   EXPECT_THAT(run.out, AllOf(StartsWith("error         key.toml  key.toml:5:1: error: "),
                              HasSubstr("\npass          good      "), HasSubstr("\nerror         reach     "),
                              HasSubstr("1 passed, 0 failed, 0 inconclusive, 2 in error\n")));
@@ -77,7 +73,7 @@ TEST(SuiteRun, oneBadScenarioIsItsOwnErrorAndNotTheEndOfTheSuite) {
   EXPECT_TRUE(isThere(ursula, "out/good/summary.json"));
   EXPECT_FALSE(isThere(ursula, "out/reach"));
   for (const char* file : {"out/junit.xml", "out/index.html"})
-    EXPECT_THAT(TemporaryFolder::read(ursula.folder() / file),
+    EXPECT_THAT(ursula.read(file),
                 AllOf(HasSubstr("key.toml:5:1: error: "), HasSubstr("error: the motion cannot be made")))
         << file;
 }
@@ -88,8 +84,7 @@ TEST(SuiteRun, strictlyOrWhereAllAreBadNothingIsWritten) {
   for (const char* call : {"validate good.toml reach.toml key.toml --strict --out out",
                            "validate good.toml reach.toml key.toml --strict --jobs 2 --out out",
                            "validate reach.toml key.toml --out out"}) {
-    const UrsulaRun run = ursula(call);
-    EXPECT_EQ(run.exit_code, 2);
+    const UrsulaRun run = ursula.ending(2, call);
     EXPECT_EQ(run.out, "");
     EXPECT_THAT(run.err, AllOf(ContainsRegex("reach.toml:[0-9]+:1: error: the motion cannot be made"),
                                HasSubstr("key.toml:5:1: error: ")));
@@ -103,7 +98,7 @@ TEST(SuiteRun, asJsonIsAnArrayOfTheSummaries) {
   const UrsulaRun run = ursula("validate good.toml key.toml --json --out out");
   const auto json = nlohmann::json::parse(run.out);
   ASSERT_EQ(json.size(), 2u);
-  EXPECT_EQ(json[0], nlohmann::json::parse(TemporaryFolder::read(ursula.folder() / "out/good/summary.json")));
+  EXPECT_EQ(json[0], nlohmann::json::parse(ursula.read("out/good/summary.json")));
   EXPECT_EQ(json[1]["scenario"], "key.toml");
   EXPECT_EQ(json[1]["verdict"], "error");
   EXPECT_THAT(json[1]["error"].get<std::string>(), StartsWith("key.toml:5:1: error: "));
@@ -113,8 +108,7 @@ TEST(SuiteRun, quietlyIsALineForEachThatPasses) {
   const Program ursula;
   ursula.write("a.toml", quickScenario("first"));
   ursula.write("b.toml", tooTight("second"));
-  const UrsulaRun run = ursula("validate a.toml b.toml --quiet --out out");
-  EXPECT_EQ(run.exit_code, 1);
+  const UrsulaRun run = ursula.ending(1, "validate a.toml b.toml --quiet --out out");
   EXPECT_THAT(run.out, AllOf(StartsWith("first: pass — "), HasSubstr("\nsecond: fail — 1 of ")));
   EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 2);
   EXPECT_EQ(run.err, "");
@@ -137,8 +131,7 @@ TEST(SuiteRun, badUsageExitsWith2AndWritesNothing) {
 
 TEST(SuiteRun, helpSaysWhatASuiteDoes) {
   const Program ursula;
-  const UrsulaRun run = ursula("validate --help");
-  EXPECT_EQ(run.exit_code, 0);
+  const UrsulaRun run = ursula.passing("validate --help");
   EXPECT_THAT(run.out,
               AllOf(HasSubstr("--jobs"), HasSubstr("Several scenarios:"), HasSubstr("Exit code: 1 if any failed")));
 }

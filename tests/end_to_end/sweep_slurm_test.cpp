@@ -39,7 +39,7 @@ class Slurm : public testing::Test {
     return ursula_("sweep mass.toml --slurm " + arguments);
   }
 
-  std::string submitted() const { return TemporaryFolder::read(ursula_.folder() / "submitted"); }
+  std::string submitted() const { return ursula_.read("submitted"); }
 
   /// Runs a task as Slurm would; returns the exit code.
   int task(const std::string& script, int index = 0) const {
@@ -90,7 +90,7 @@ TEST_F(Slurm, onlyWhatIsMissingIsSubmittedAgain) {
   EXPECT_THAT(run.out, AllOf(HasSubstr("1 of 4 shards are already in the queue (job 12) and are not submitted again"),
                              HasSubstr("1 of 4 shards submitted (4): job 14")));
   EXPECT_THAT(submitted(), HasSubstr("--dependency=afterany:12:14:13 ")) << "a merge at a time, after all";
-  EXPECT_THAT(TemporaryFolder::read(ursula_.folder() / "results/mass.slurm/array.sh"), HasSubstr("--array=4\n"));
+  EXPECT_THAT(ursula_.read("results/mass.slurm/array.sh"), HasSubstr("--array=4\n"));
 }
 
 TEST_F(Slurm, whatIsAllThereIsOnlyMerged) {
@@ -145,8 +145,7 @@ TEST_F(Slurm, misuseIsRefused) {
            {"mass.toml --slurm --shards 2", "there is no sbatch on PATH"}}) {
     write("options.toml", "[slurm]\noptions = [\"--array=1-9\"]\n");
     ::setenv("PATH", path.c_str(), 1);
-    const UrsulaRun run = ursula_("sweep " + arguments);
-    EXPECT_EQ(run.exit_code, 2) << arguments;
+    const UrsulaRun run = ursula_.ending(2, "sweep " + arguments);
     EXPECT_THAT(run.err, HasSubstr(answer)) << arguments;
   }
 }

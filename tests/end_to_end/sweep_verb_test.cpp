@@ -24,14 +24,12 @@ std::string sweepOf(const std::string& what, const std::string& rest) {
 TEST(SweepVerb, worksOnceAndThenSaysThatAllIsThere) {
   const Program ursula;
   ursula.write("s.toml", sweepOf("inverse", "design = \"random\"\ncount = 50\nsamples = 5\n"));
-  const UrsulaRun first = ursula("sweep s.toml");
-  EXPECT_EQ(first.exit_code, 0) << first.err;
+  const UrsulaRun first = ursula.passing("sweep s.toml");
   EXPECT_EQ(first.out, "50 points: 50 pass\nresults/s.db\n");
   ASSERT_TRUE(std::filesystem::exists(ursula.folder() / "results/s.db"));
   EXPECT_FALSE(std::filesystem::exists(ursula.folder() / "results/s.db-wal"));
-  const std::string bytes = TemporaryFolder::read(ursula.folder() / "results/s.db");
-  const UrsulaRun second = ursula("sweep s.toml");
-  EXPECT_EQ(second.exit_code, 0);
+  const std::string bytes = ursula.read("results/s.db");
+  const UrsulaRun second = ursula.passing("sweep s.toml");
   EXPECT_THAT(second.err, HasSubstr("nothing to do: all 50 points are in results/s.db"));
   EXPECT_EQ(second.out, first.out);
 }
@@ -43,11 +41,9 @@ TEST(SweepVerb, showWritesAPointThatValidatesWithTheSameNumbers) {
                          "[[vary]]\nkey = \"platform.mass\"\nuniform = [400.0, 600.0]\n");
   const UrsulaRun sweep = ursula("sweep s.toml --db s.db --jobs 1");
   EXPECT_EQ(sweep.exit_code, 0) << sweep.out << sweep.err;
-  const UrsulaRun shown = ursula("sweep show s.toml 1");
-  EXPECT_EQ(shown.exit_code, 0);
+  const UrsulaRun shown = ursula.passing("sweep show s.toml 1");
   ursula.write("point.toml", shown.out);
-  const UrsulaRun validated = ursula("validate point.toml --json --out point");
-  ASSERT_EQ(validated.exit_code, 0) << validated.err;
+  const UrsulaRun validated = ursula.passing("validate point.toml --json --out point");
   const auto summary = nlohmann::json::parse(validated.out);
   EXPECT_EQ(summary.at("scenario"), "helix-0.3s-1");
   EXPECT_EQ(shown.out, ursula("sweep show s.toml 1").out);
@@ -57,15 +53,12 @@ TEST(SweepVerb, showWritesAPointThatValidatesWithTheSameNumbers) {
 TEST(SweepVerb, shardsMergeToTheWholeAndWhatIsMissingIsNamed) {
   const Program ursula;
   ursula.write("s.toml", sweepOf("inverse", "design = \"sobol\"\ncount = 64\nsamples = 5\n"));
-  for (const char* shard : {"1/4", "2/4", "4/4"})
-    EXPECT_EQ(ursula("sweep s.toml --shard " + std::string(shard)).exit_code, 0);
-  const UrsulaRun partial = ursula("sweep merge results/s.shard-*.db --db all.db");
-  EXPECT_EQ(partial.exit_code, 3);
+  for (const char* shard : {"1/4", "2/4", "4/4"}) ursula.passing("sweep s.toml --shard " + std::string(shard));
+  const UrsulaRun partial = ursula.ending(3, "sweep merge results/s.shard-*.db --db all.db");
   EXPECT_THAT(partial.err, HasSubstr("16 of 64 points are missing, the first from 32 to 47; to make them:\n"
                                      "  ursula sweep s.toml --shard 3/4\n"));
-  EXPECT_EQ(ursula("sweep s.toml --shard 3/4").exit_code, 0);
-  const UrsulaRun whole = ursula("sweep merge results/s.shard-*.db --db all.db");
-  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  ursula.passing("sweep s.toml --shard 3/4");
+  const UrsulaRun whole = ursula.passing("sweep merge results/s.shard-*.db --db all.db");
   EXPECT_THAT(whole.out, HasSubstr("64 of 64 points, 16 of them new"));
   EXPECT_THAT(ursula("sweep s.toml --db all.db").err, HasSubstr("nothing to do"));
 }
@@ -73,11 +66,10 @@ TEST(SweepVerb, shardsMergeToTheWholeAndWhatIsMissingIsNamed) {
 TEST(SweepVerb, mergeMakesFoldersWhereItWritesAlone) {
   const Program ursula;
   ursula.write("s.toml", sweepOf("inverse", "design = \"random\"\ncount = 4\nsamples = 5\n"));
-  ASSERT_EQ(ursula("sweep s.toml --db a/b/s.db").exit_code, 0);
-  EXPECT_EQ(ursula("sweep merge none.db --db c/d/all.db").exit_code, 2);
+  ursula.passing("sweep s.toml --db a/b/s.db");
+  ursula.ending(2, "sweep merge none.db --db c/d/all.db");
   EXPECT_FALSE(std::filesystem::exists(ursula.folder() / "c"));
-  const UrsulaRun merged = ursula("sweep merge a/b/s.db --db c/d/all.db");
-  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  ursula.passing("sweep merge a/b/s.db --db c/d/all.db");
   EXPECT_TRUE(std::filesystem::exists(ursula.folder() / "c/d/all.db"));
 }
 
@@ -85,7 +77,7 @@ TEST(SweepVerb, mergeMakesFoldersWhereItWritesAlone) {
 TEST(SweepVerb, mergeThatASignalStopsLeavesOneFile) {
   const Program ursula;
   ursula.write("s.toml", sweepOf("inverse", "design = \"random\"\ncount = 8000\nsamples = 5\n"));
-  ASSERT_EQ(ursula("sweep s.toml --db s.db").exit_code, 0);
+  ursula.passing("sweep s.toml --db s.db");
   const std::filesystem::path log = ursula.folder() / "all.db-wal";
   for (const int signal : {SIGINT, SIGTERM}) {
     Running merge(ursula, {"sweep", "merge", "s.db", "--db", "all.db"});
@@ -97,7 +89,7 @@ TEST(SweepVerb, mergeThatASignalStopsLeavesOneFile) {
     EXPECT_EQ(merge.exitCode(), 128 + signal);
     EXPECT_EQ(ursula.files(), 3u) << "s.toml, s.db, all.db";
   }
-  EXPECT_EQ(ursula("sweep merge s.db --db all.db").exit_code, 0);
+  ursula.passing("sweep merge s.db --db all.db");
 }
 
 TEST(SweepVerb, refusesInOneLineWhatCannotBe) {
@@ -105,7 +97,7 @@ TEST(SweepVerb, refusesInOneLineWhatCannotBe) {
   ursula.write("s.toml", sweepOf("inverse", "design = \"random\"\ncount = 50\nsamples = 5\n"));
   ursula.write("other.toml", sweepOf("inverse", "design = \"random\"\ncount = 51\nsamples = 5\n"));
   ursula.write("bad.toml", sweepOf("inverse", "design = \"randon\"\ncount = 50\n"));
-  ASSERT_EQ(ursula("sweep s.toml --db s.db").exit_code, 0);
+  ursula.passing("sweep s.toml --db s.db");
   ursula.write(
       "twice.toml",
       sweepOf("inverse", "design = \"random\"\ncount = 2\n[[vary]]\nkey = \"leg.01.base_point.0\"\nvalues = [0.1]\n"));
@@ -136,12 +128,12 @@ TEST(SweepVerb, keepsItsDatabaseWhateverItIsCalled) {
   ursula.write("-a b's.toml", sweepOf("inverse", "design = \"random\"\ncount = 4\nsamples = 5\n"));
   const std::string file = "\"./-a b's.toml\"";
   for (const char* name : {":memory:", "file:y.db?mode=memory"}) {
-    EXPECT_EQ(ursula("sweep " + file + " --db '" + name + "'").exit_code, 0);
+    ursula.passing("sweep " + file + " --db '" + name + "'");
     EXPECT_THAT(ursula("sweep " + file + " --db '" + name + "'").err, HasSubstr("nothing to do")) << name;
     EXPECT_THAT(ursula("sweep merge '" + std::string(name) + "' --db merged.db").out, HasSubstr("4 of 4 points"))
         << name;
   }
-  ASSERT_EQ(ursula("sweep " + file + " --shard 1/2 --db 1.db").exit_code, 0);
+  ursula.passing("sweep " + file + " --shard 1/2 --db 1.db");
   const std::string said = ursula("sweep merge 1.db --db all.db").err;
   const std::size_t at = said.find("  ursula ");
   ASSERT_NE(at, std::string::npos) << said;
@@ -157,8 +149,8 @@ TEST(SweepVerb, leavesIgnoredWhatWasIgnoredWhenItWasStarted) {
                "' sweep s.toml --jobs 2 >said 2>&1 &\n"
                "for k in 1 2 3 4 5 6 7 8 9 10; do sleep 0.1; kill -INT $!; kill -TERM $!; done\nwait $!\n");
   const std::string command = "cd '" + ursula.folder().string() + "' && sh interrupted.sh 2>.err";
-  EXPECT_EQ(std::system(command.c_str()), 0) << TemporaryFolder::read(ursula.folder() / "said");
-  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "said"), HasSubstr("20000 points: 20000 pass"));
+  EXPECT_EQ(std::system(command.c_str()), 0) << ursula.read("said");
+  EXPECT_THAT(ursula.read("said"), HasSubstr("20000 points: 20000 pass"));
 }
 
 /// Runs a hundredth of each shipped sweep; no point may fail or have an error.
@@ -196,11 +188,11 @@ TEST(SweepVerb, rowsOfAMachineThatRoundsDifferentlyAreTheSameUpToRounding) {
                          "/helix-0.3s.toml\"\ndesign = \"random\"\ncount = 4\nsamples = 7\n"
                          "[[vary]]\nkey = \"platform.mass\"\nuniform = [400.0, 600.0]\n"
                          "[[vary]]\nkey = \"trajectory.radius\"\nuniform = [0.1, 0.3]\n");
-  ASSERT_EQ(ursula("sweep s.toml --db one.db").exit_code, 0);
-  ASSERT_EQ(ursula("sweep s.toml --db again.db").exit_code, 0);
+  ursula.passing("sweep s.toml --db one.db");
+  ursula.passing("sweep s.toml --db again.db");
   {
     const WithoutFma there;
-    ASSERT_EQ(ursula("sweep s.toml --db other.db").exit_code, 0);
+    ursula.passing("sweep s.toml --db other.db");
   }
   const auto differing = [&](const char* database, const std::string& of) {
     Sqlite one(ursula.folder() / "one.db", Sqlite::Access::read);
@@ -217,8 +209,7 @@ TEST(SweepVerb, rowsOfAMachineThatRoundsDifferentlyAreTheSameUpToRounding) {
   EXPECT_EQ(differing("again.db", "r.value <> s.value OR r.\"limit\" <> s.\"limit\""), 0);
   if (!hasFma()) return;
   EXPECT_GT(differing("other.db", "r.value <> s.value"), 0) << "a control: the two libraries do round differently";
-  const UrsulaRun merged = ursula("sweep merge one.db other.db --db both.db");
-  EXPECT_EQ(merged.exit_code, 2);
+  const UrsulaRun merged = ursula.ending(2, "sweep merge one.db other.db --db both.db");
   EXPECT_THAT(merged.err, HasSubstr("two kinds of machines round differently"));
 }
 

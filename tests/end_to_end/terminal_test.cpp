@@ -17,9 +17,8 @@ namespace {
 TEST(Terminal, tableListsEveryCheckAndSaysWhatFailed) {
   const Program ursula;
   ursula.write("a.toml", quickScenario() + "[acceptance]\n\"torque.pointwise\" = 1e-30\n");
-  const UrsulaRun run = ursula("validate a.toml --out out --verbose");
-  EXPECT_EQ(run.exit_code, 1) << run.err;
-  const std::string summary = TemporaryFolder::read(ursula.folder() / "out/summary.json");
+  const UrsulaRun run = ursula.ending(1, "validate a.toml --out out --verbose");
+  const std::string summary = ursula.read("out/summary.json");
   EXPECT_EQ(nlohmann::json::parse(summary).at("verdict"), "fail");
   for (const CheckRow& check : checkCatalogue()) EXPECT_THAT(run.out, HasSubstr(check.name));
   EXPECT_THAT(run.out,
@@ -32,18 +31,16 @@ TEST(Terminal, tableListsEveryCheckAndSaysWhatFailed) {
 TEST(Terminal, jsonIsTheSummaryAndNothingElse) {
   const Program ursula;
   ursula.write("a.toml", quickScenario());
-  const UrsulaRun run = ursula("validate a.toml --json --out out");
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const UrsulaRun run = ursula.passing("validate a.toml --json --out out");
   EXPECT_EQ(nlohmann::json::parse(run.out).at("verdict"), "pass");
-  EXPECT_EQ(run.out, TemporaryFolder::read(ursula.folder() / "out/summary.json"));
-  EXPECT_EQ(ursula("validate a.toml --json --quiet").exit_code, 2);
+  EXPECT_EQ(run.out, ursula.read("out/summary.json"));
+  ursula.ending(2, "validate a.toml --json --quiet");
 }
 
 TEST(Terminal, quietIsTheVerdictsSentence) {
   const Program ursula;
   ursula.write("a.toml", quickScenario());
-  const UrsulaRun run = ursula("validate a.toml --quiet");
-  EXPECT_EQ(run.exit_code, 0);
+  const UrsulaRun run = ursula.passing("validate a.toml --quiet");
   EXPECT_THAT(run.out, StartsWith("small: pass — "));
   EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 1);
   EXPECT_EQ(run.err, "");
@@ -57,10 +54,9 @@ TEST(Terminal, aScenarioMayComeFromStandardInput) {
   EXPECT_EQ(ursula("inverse - --samples 3 <a.toml").out, ursula("inverse a.toml --samples 3").out);
   EXPECT_THAT(ursula("check - <a.toml").out,
               StartsWith("<stdin>: the scenario and its motion are valid; 0 warnings\n"));
-  EXPECT_EQ(ursula("validate - --quiet <a.toml").exit_code, 0);
+  ursula.passing("validate - --quiet <a.toml");
   EXPECT_TRUE(std::filesystem::exists(ursula.folder() / "results/small/summary.json"));
-  const UrsulaRun bad = ursula("validate - <bad.toml");
-  EXPECT_EQ(bad.exit_code, 2);
+  const UrsulaRun bad = ursula.ending(2, "validate - <bad.toml");
   EXPECT_THAT(bad.err, StartsWith("<stdin>:5:1: error: "));
   EXPECT_THAT(ursula("validate - - <a.toml").err, HasSubstr("standard input can be read once"));
   EXPECT_THAT(ursula("validate - --solver true <a.toml").err, HasSubstr("got - as the scenario, expected a file"));
@@ -69,21 +65,18 @@ TEST(Terminal, aScenarioMayComeFromStandardInput) {
 TEST(Terminal, aFolderIsNotStandardOutput) {
   const Program ursula;
   ursula.write("a.toml", quickScenario());
-  const UrsulaRun run = ursula("validate a.toml --out -");
-  EXPECT_EQ(run.exit_code, 2);
+  const UrsulaRun run = ursula.ending(2, "validate a.toml --out -");
   EXPECT_THAT(run.err, HasSubstr("--out -: expected a folder"));
   EXPECT_EQ(ursula.files(), 1u);
 }
 
 TEST(Explain, hasAPageForEachCheckAndAListOfAll) {
   const Program ursula;
-  const UrsulaRun all = ursula("explain");
-  EXPECT_EQ(all.exit_code, 0);
+  const UrsulaRun all = ursula.passing("explain");
   EXPECT_THAT(all.out, HasSubstr("Kinematics: solver and Simbody agree\n"));
   for (const CheckRow& check : checkCatalogue()) {
     EXPECT_THAT(all.out, HasSubstr(std::string("\n  ") + check.name + " "));
-    const UrsulaRun page = ursula(std::string("explain ") + check.name);
-    EXPECT_EQ(page.exit_code, 0);
+    const UrsulaRun page = ursula.passing(std::string("explain ") + check.name);
     EXPECT_THAT(page.out, AllOf(StartsWith(std::string(check.name) + ": "), HasSubstr("\nproves "),
                                 HasSubstr("\nlimit "), HasSubstr("\nif it fails ")));
   }
@@ -105,7 +98,7 @@ TEST(Open, startsTheBrowserWithTheReportAndDoesNotWait) {
   const auto shown = [&ursula] { return std::filesystem::exists(ursula.folder() / "shown"); };
   for (int k = 0; k < 12000 && !shown(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   ASSERT_TRUE(shown());
-  EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "shown"), run.out);
+  EXPECT_EQ(ursula.read("shown"), run.out);
 }
 
 /// $BROWSER is read as other programs read it: each %s is the page as one word, even within quotes.
@@ -139,8 +132,7 @@ TEST(Open, takesTheBrowserAsItIsQuoted) {
 TEST(Open, saysWhereThereIsNoReportOrNoBrowser) {
   const Program ursula;
   std::filesystem::create_directory(ursula.folder() / "out");
-  const UrsulaRun none = ursula("open out");
-  EXPECT_EQ(none.exit_code, 2);
+  const UrsulaRun none = ursula.ending(2, "open out");
   EXPECT_THAT(none.err, HasSubstr("out has neither report.html nor index.html"));
   ursula.write("out/report.html", "");
   ::unsetenv("BROWSER");

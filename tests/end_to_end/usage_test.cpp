@@ -34,8 +34,8 @@ TEST(Usage, helpIsGivenByTheProgramAndByEachVerb) {
     EXPECT_THAT(run.out, HasSubstr("--help")) << verb;
     EXPECT_EQ(run.err, "") << verb;
   }
-  EXPECT_EQ(ursula("--help").exit_code, 0);
-  EXPECT_EQ(ursula("--version").exit_code, 0);
+  ursula.passing("--help");
+  ursula.passing("--version");
   EXPECT_EQ(ursula.files(), 0u);
 }
 
@@ -62,8 +62,7 @@ TEST(Usage, aMisspeltVerbOrOptionGetsOneLineWithTheNearest) {
            {"inverse", "ursula inverse: scenario is required (ursula inverse --help shows the usage)\n"},
            {"explain torque.pontwise",
             "error: no check 'torque.pontwise', did you mean 'torque.pointwise'? (ursula explain lists all)\n"}}) {
-    const UrsulaRun run = ursula(call);
-    EXPECT_EQ(run.exit_code, 2) << call;
+    const UrsulaRun run = ursula.ending(2, call);
     EXPECT_EQ(run.err, line);
     EXPECT_EQ(run.out, "") << call;
   }

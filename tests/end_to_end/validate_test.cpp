@@ -70,7 +70,7 @@ TEST(ValidateVerb, refusesWhatIsNoScenario) {
 /// Makes a scenario and its results of `ursula inverse`.
 void prepare(const Program& ursula, const std::string& samples) {
   ursula.write("small.toml", good_scenario);
-  ASSERT_EQ(ursula("inverse small.toml --samples " + samples + " --out tau.csv").exit_code, 0);
+  ursula.passing("inverse small.toml --samples " + samples + " --out tau.csv");
 }
 
 std::string replacedLine(const std::string& text, int line, const std::function<std::string(std::string)>& change) {
@@ -97,30 +97,28 @@ TEST(TorquesRun, whatInverseWritesPasses) {
 TEST(TorquesRun, wrongOnesFailAndSayWhy) {
   const Program ursula;
   prepare(ursula, "101");
-  std::string text = TemporaryFolder::read(ursula.folder() / "tau.csv");
+  std::string text = ursula.read("tau.csv");
   text = replaced(text, "tau_2_Nm", "tau_x_Nm");
   text = replaced(text, "tau_5_Nm", "tau_2_Nm");
   ursula.write("tau.csv", replaced(text, "tau_x_Nm", "tau_5_Nm"));
-  const auto run = ursula("validate small.toml --torques tau.csv --out out");
-  EXPECT_EQ(run.exit_code, 1) << run.out;
-  const std::string summary = TemporaryFolder::read(ursula.folder() / "out/summary.json");
+  ursula.ending(1, "validate small.toml --torques tau.csv --out out");
+  const std::string summary = ursula.read("out/summary.json");
   EXPECT_THAT(summary, HasSubstr("\"likely cause\": \"legs 2 and 5 swapped, which explains"));
 }
 
 TEST(TorquesRun, fewOnesAreInconclusive) {
   const Program ursula;
   prepare(ursula, "5");
-  EXPECT_EQ(ursula("validate small.toml --torques tau.csv --out out").exit_code, 3);
+  ursula.ending(3, "validate small.toml --torques tau.csv --out out");
 }
 
 TEST(TorquesRun, refusalsNameTheLineAndWriteNothing) {
   const Program ursula;
   prepare(ursula, "5");
-  const std::string text = TemporaryFolder::read(ursula.folder() / "tau.csv");
+  const std::string text = ursula.read("tau.csv");
   const auto refused = [&](const std::string& faulty) {
     ursula.write("bad.csv", faulty);
-    const auto run = ursula("validate small.toml --torques bad.csv --out out");
-    EXPECT_EQ(run.exit_code, 2);
+    const UrsulaRun run = ursula.ending(2, "validate small.toml --torques bad.csv --out out");
     EXPECT_EQ(run.out, "");
     EXPECT_FALSE(std::filesystem::exists(ursula.folder() / "out"));
     return run.err;

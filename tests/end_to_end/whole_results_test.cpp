@@ -154,14 +154,13 @@ TEST(WholeResults, ofASecondRunIntoOneFolderAreRefused) {
   const fs::path lock = ursula.write(".ursula-lock-" + sha1("out").substr(0, 12), "4711\n");
   const int held = ::open(lock.c_str(), O_RDONLY | O_CLOEXEC);
   ASSERT_EQ(::flock(held, LOCK_EX), 0);
-  const UrsulaRun second = ursula("validate a.toml --out out");
-  EXPECT_EQ(second.exit_code, 2);
+  const UrsulaRun second = ursula.ending(2, "validate a.toml --out out");
   EXPECT_EQ(second.err,
             "error: out: another run (process 4711) is writing there, expected a folder that no other run has\n");
   EXPECT_FALSE(fs::exists(ursula.folder() / "out"));
-  EXPECT_EQ(ursula("validate a.toml --out other --quiet --time-limit 1e-9").exit_code, inconclusive);
+  ursula.ending(inconclusive, "validate a.toml --out other --quiet --time-limit 1e-9");
   ::close(held);
-  EXPECT_EQ(ursula("validate a.toml --out out --quiet --time-limit 1e-9").exit_code, inconclusive);
+  ursula.ending(inconclusive, "validate a.toml --out out --quiet --time-limit 1e-9");
   EXPECT_FALSE(fs::exists(lock));
 }
 
@@ -171,13 +170,12 @@ TEST(WholeResults, whereNoMoreCanBeWrittenAreTheOldOnes) {
   ursula.write("b.toml", quickScenario("two"));
   for (const char* what : {"a.toml", "a.toml b.toml"}) {
     const std::string call = std::string("validate ") + what + " --quiet --time-limit 1e-9 --out out";
-    ASSERT_EQ(ursula(call).exit_code, inconclusive);
+    ursula.ending(inconclusive, call);
     const auto before = contents(ursula.folder());
     EXPECT_EQ(shell(ursula, "ulimit -f 64; \"$URSULA\" " + call + " 2>/dev/full"), 2);
     EXPECT_TRUE(contents(ursula.folder()) == before) << what;
     EXPECT_EQ(shell(ursula, "ulimit -f 64; \"$URSULA\" " + call + " 2>err"), 2);
-    EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "err"),
-                AllOf(HasSubstr("error: cannot write out/"), HasSubstr(": File too large\n")));
+    EXPECT_THAT(ursula.read("err"), AllOf(HasSubstr("error: cannot write out/"), HasSubstr(": File too large\n")));
     fs::remove_all(ursula.folder() / "out");
     fs::remove(ursula.folder() / "err");
   }
@@ -205,8 +203,7 @@ TEST(WholeResults, thatCannotBeWrittenAreRefusedBeforeAnythingIsComputed) {
       {"a.toml --out .", ".: is the working folder, expected another folder, such as ./results"},
   };
   for (const auto& [call, why] : calls) {
-    const UrsulaRun run = ursula("validate " + call);
-    EXPECT_EQ(run.exit_code, 2) << call;
+    const UrsulaRun run = ursula.ending(2, "validate " + call);
     EXPECT_THAT(run.err, AllOf(HasSubstr("error: cannot write "), HasSubstr(why), testing::Not(HasSubstr("[1/2]"))))
         << call;
     EXPECT_EQ(contents(ursula.folder()), before) << call;
@@ -218,23 +215,21 @@ TEST(WholeResults, thatCannotBeWrittenAreRefusedBeforeAnythingIsComputed) {
 TEST(WholeResults, replaceNothingThatIsRead) {
   const Program ursula;
   ursula.write("a.toml", quickScenario("one"));
-  ASSERT_EQ(ursula("inverse a.toml --samples 41 --out out/timeseries.csv").exit_code, 0);
+  ursula.passing("inverse a.toml --samples 41 --out out/timeseries.csv");
   ursula.write("out/summary.json", quickScenario("two"));
   const std::string samples = quickScenario("one");
   ursula.write("sampled.toml", samples.substr(0, samples.find("[trajectory]")) +
                                    "[trajectory]\nkind = \"samples\"\nfile = \"out/timeseries.csv\"\n");
   fs::create_directory(ursula.folder() / "side");
   for (const char* copy : {"out/efforts.csv", "side/engines.csv"})
-    ursula.write(copy, TemporaryFolder::read(ursula.folder() / "out/timeseries.csv"));
-  ursula.write("motion.toml",
-               replaced(TemporaryFolder::read(ursula.folder() / "sampled.toml"), "out/timeseries", "side/engines"));
+    ursula.write(copy, ursula.read("out/timeseries.csv"));
+  ursula.write("motion.toml", replaced(ursula.read("sampled.toml"), "out/timeseries", "side/engines"));
   ASSERT_EQ(ursula("check sampled.toml").exit_code, 0) << ursula("check sampled.toml").err;
   const auto before = contents(ursula.folder());
   for (const char* call :
        {"validate a.toml --torques out/timeseries.csv", "validate out/summary.json", "validate a.toml out/summary.json",
         "validate sampled.toml", "identify a.toml --measured ./out/efforts.csv"}) {
-    const UrsulaRun run = ursula(std::string(call) + " --out out");
-    EXPECT_EQ(run.exit_code, 2) << call;
+    const UrsulaRun run = ursula.ending(2, std::string(call) + " --out out");
     EXPECT_THAT(run.err,
                 AllOf(HasSubstr("results would replace "), HasSubstr(", which is read, expected another folder")))
         << call;
@@ -248,19 +243,17 @@ TEST(WholeResults, replaceNothingThatIsRead) {
         "poses sampled.toml --out out/timeseries.csv",
         "simulate sampled.toml --torques a.toml --out out/timeseries.csv",
         "check sampled.toml --picture out/timeseries.csv", "check a.toml --picture a.toml"}) {
-    const UrsulaRun run = ursula(call);
-    EXPECT_EQ(run.exit_code, 2) << call;
+    const UrsulaRun run = ursula.ending(2, call);
     EXPECT_THAT(run.err, testing::ContainsRegex("reads this file, expected another file")) << call;
     EXPECT_TRUE(contents(ursula.folder()) == before) << call;
   }
   expectRefused(ursula, {{"map a.toml --picture same --out same", " also writes this file, expected another file"}});
-  EXPECT_EQ(ursula("map a.toml --picture /dev/null --out /dev/null --x=0,1,2 --y=0,1,2").exit_code, 0);
-  EXPECT_EQ(ursula("validate a.toml --torques out/timeseries.csv --out elsewhere").exit_code, 0);
-  const UrsulaRun into = ursula("compare elsewhere/timeseries.csv elsewhere/timeseries.csv --out elsewhere");
-  EXPECT_EQ(into.exit_code, 2);
+  ursula.passing("map a.toml --picture /dev/null --out /dev/null --x=0,1,2 --y=0,1,2");
+  ursula.passing("validate a.toml --torques out/timeseries.csv --out elsewhere");
+  const UrsulaRun into = ursula.ending(2, "compare elsewhere/timeseries.csv elsewhere/timeseries.csv --out elsewhere");
   EXPECT_THAT(into.err, HasSubstr("--out elsewhere: has the results of a validation, expected another folder"));
-  EXPECT_EQ(ursula("compare elsewhere elsewhere --out compared").exit_code, 0);
-  EXPECT_EQ(ursula("inverse a.toml --out new/").exit_code, 2);
+  ursula.passing("compare elsewhere elsewhere --out compared");
+  ursula.ending(2, "inverse a.toml --out new/");
   EXPECT_FALSE(fs::exists(ursula.folder() / "new"));
 }
 
@@ -268,14 +261,13 @@ TEST(WholeResults, ofTwoRunsAreNotCompared) {
   const Program ursula;
   ursula.write("a.toml", quickScenario("one"));
   ursula.write("b.toml", quickScenario("one", "499.0"));
-  ASSERT_EQ(ursula("validate a.toml --quiet --out a").exit_code, 0);
-  ASSERT_EQ(ursula("validate b.toml --quiet --out b").exit_code, 0);
-  EXPECT_EQ(ursula("compare a a").exit_code, 0);
+  ursula.passing("validate a.toml --quiet --out a");
+  ursula.passing("validate b.toml --quiet --out b");
+  ursula.passing("compare a a");
   fs::copy_file(ursula.folder() / "b/timeseries.csv", ursula.folder() / "a/timeseries.csv",
                 fs::copy_options::overwrite_existing);
   for (const char* call : {"compare a b", "compare b a", "open a"}) {
-    const UrsulaRun mixed = ursula(call);
-    EXPECT_EQ(mixed.exit_code, 2) << call;
+    const UrsulaRun mixed = ursula.ending(2, call);
     EXPECT_THAT(mixed.err, HasSubstr("a/timeseries.csv: error: is not of the run ")) << call;
   }
 }

@@ -21,7 +21,7 @@ TEST(ExportVerb, WritesToStandardOutputOrToAFile) {
     EXPECT_EQ(kept.exit_code, 0) << kept.err;
     EXPECT_THAT(kept.out, IsEmpty());
     EXPECT_THAT(shown.out, StartsWith("<?xml"));
-    EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "models/machine.xml"), shown.out);
+    EXPECT_EQ(ursula.read("models/machine.xml"), shown.out);
     EXPECT_THAT(
         shown.err,
         HasSubstr("note: trajectory: The file has the machine at its first instant; it leaves out the motion ("));
@@ -30,17 +30,15 @@ TEST(ExportVerb, WritesToStandardOutputOrToAFile) {
 
 TEST(ExportVerb, RefusesWhatItCannotWrite) {
   const Program ursula;
-  const UrsulaRun format = ursula("export " + helix + " --format obj");
-  EXPECT_EQ(format.exit_code, 2);
+  const UrsulaRun format = ursula.ending(2, "export " + helix + " --format obj");
   EXPECT_THAT(format.err, HasSubstr("mjcf|sdf|urdf"));
-  EXPECT_EQ(ursula("export " + helix).exit_code, 2);
+  ursula.ending(2, "export " + helix);
   std::string away = Program::shipped("hold.toml");
   const std::size_t at = away.find("position = ");
   ASSERT_NE(at, std::string::npos);
   away.replace(at, away.find('\n', at) - at, "position = [0.0, 0.0, 50.0]");
   ursula.write("away.toml", away);
-  const UrsulaRun far = ursula("export away.toml --format sdf --out far.sdf");
-  EXPECT_EQ(far.exit_code, 2);
+  const UrsulaRun far = ursula.ending(2, "export away.toml --format sdf --out far.sdf");
   EXPECT_THAT(far.err, HasSubstr("away.toml:"));
   EXPECT_THAT(far.err, HasSubstr("leg 1 would have to reach over"));
   EXPECT_FALSE(std::filesystem::exists(ursula.folder() / "far.sdf"));

@@ -42,7 +42,7 @@ class Disturbed {
   }
 
   std::vector<Call> calls() const {
-    std::istringstream log(TemporaryFolder::read(ursula.folder() / "log"));
+    std::istringstream log(ursula.read("log"));
     std::vector<Call> all;
     long number = 0;
     Call call;
@@ -50,7 +50,7 @@ class Disturbed {
     return all;
   }
 
-  std::string complaint() const { return TemporaryFolder::read(ursula.folder() / "err"); }
+  std::string complaint() const { return ursula.read("err"); }
 
   const Program ursula;
 
@@ -141,7 +141,7 @@ TEST(Faults, leaveARunsResultsWhole) {
   const Disturbed disturbed("validate a.toml --time-limit 1e-9 --out at/out");
   disturbed.ursula.write("a.toml", quickScenario("one"));
   disturbed.ursula.write("b.toml", quickScenario("one", "499.0"));
-  ASSERT_EQ(disturbed.ursula("validate b.toml --time-limit 1e-9 --out old/out").exit_code, 3);
+  disturbed.ursula.ending(3, "validate b.toml --time-limit 1e-9 --out old/out");
   disturbed.ursula.write("old/out/note", "mine");
   holdsThroughEveryFailure(
       disturbed, [&] { putOld(disturbed, disturbed.ursula.folder() / "old"); },
@@ -167,7 +167,7 @@ TEST(Faults, leaveAFileWhole) {
         "compare a.csv a.csv --out at/out.csv", "simulate a.toml --torques a.csv --out at/out.csv"}) {
     const Disturbed disturbed(call);
     disturbed.ursula.write("a.toml", quickScenario("one"));
-    ASSERT_EQ(disturbed.ursula("inverse a.toml --samples 9 --out a.csv").exit_code, 0);
+    disturbed.ursula.passing("inverse a.toml --samples 9 --out a.csv");
     holdsThroughEveryFailure(disturbed, [&] { disturbed.ursula.write("at/out.csv", "old\n"); },
                              {"open", "write", "fsync", "rename", "close"});
   }
@@ -240,7 +240,7 @@ TEST(Faults, loseNoRowOfAMerge) {
   disturbed.ursula.write("a.toml", quickScenario("one"));
   disturbed.ursula.write("s.toml", small_sweep);
   for (const char* shard : {"1", "2"})
-    ASSERT_EQ(disturbed.ursula(std::string("sweep s.toml --shard ") + shard + "/2 --db " + shard + ".db").exit_code, 0);
+    disturbed.ursula.passing(std::string("sweep s.toml --shard ") + shard + "/2 --db " + shard + ".db");
   holdsRowsThroughEveryFailure(disturbed, {"open64", "pwrite64", "fcntl64", "mmap64", "close"});
 }
 
