@@ -17,9 +17,9 @@ constexpr int windows = 20, rows_in_window = 8;
 /// What is left open by rows is known for the scenario's motion and for fewer rows; all of them may leave up to as many
 /// times of it.
 constexpr double other_motion = 4;
-/// A window is decided if its rows leave no more open than this share of the largest effort, or half of what the user
-/// allows: a mass that is wrong by a percent changes efforts by more.
-constexpr double telling = 1e-3, telling_of_allowed = 0.5;
+/// A window is decided if its rows leave no more open than the user allows, or than this share of the largest effort: a
+/// mass that is wrong by a percent changes efforts by more.
+constexpr double telling = 1e-3;
 /// Errors of a smooth motion shrink at least with the fourth power of the rows' distance, those of a kink in a smooth
 /// mean with the third at most.
 constexpr double order_of_smooth = 4, smooth = 16, of_kink = 8;
@@ -129,8 +129,8 @@ void decide(const MotionAsked& asked, const EffortList& needed, const std::vecto
     largest = larger(largest, each.cwiseProduct(asked.in).cwiseAbs().maxCoeff());
   const auto& user = asked.tolerance;
   const double allowed = user ? user->relative * largest + user->absolute : 0;
-  const double most = user ? telling_of_allowed * allowed : telling * largest;
-  out.wanted = user ? "half of what the tolerance allows" : fmt::format("{:g} of the largest", telling);
+  const double most = user ? allowed : telling * largest;
+  out.wanted = user ? "what the tolerance allows" : fmt::format("{:g} of the largest", telling);
   std::vector<double> shares;
   for (std::size_t k = 0; k < out.t.size(); ++k) {
     double share = 0;
