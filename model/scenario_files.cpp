@@ -81,8 +81,4 @@ std::string scenarioTextOrInput(const std::filesystem::path& file) {
   }
 }
 
-Scenario readScenarioOrInput(const std::filesystem::path& file) {
-  return parseScenario(scenarioTextOrInput(file), namedInput(file));
-}
-
 }  // namespace ursula

@@ -28,12 +28,8 @@ std::string scenarioText(const std::filesystem::path& file);
 /// Returns the file's name in errors: <stdin> for "-".
 std::filesystem::path namedInput(const std::filesystem::path& file);
 
-/// Reads the text of a scenario file, or standard input if `file` is "-".
+/// Reads the text of a scenario file, or standard input if `file` is "-", which can be read once.
 std::string scenarioTextOrInput(const std::filesystem::path& file);
-
-/// Calls readScenario(), or reads standard input if `file` is "-". Then errors name it <stdin>, and relative paths
-/// refer to the current folder. Standard input can be read once.
-Scenario readScenarioOrInput(const std::filesystem::path& file);
 
 /// The place of a key in a scenario's file.
 struct KeyPlace {
