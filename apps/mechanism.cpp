@@ -114,7 +114,7 @@ CheckedScenario checkMechanism(const MechanismScenario& scenario, const std::str
     out.assumptions = scenario.read.assumptions;
     if (!path.freedoms().idle.empty())
       out.assumptions.push_back(fmt::format("held at rest, since a spin about their own line has no effect: {}",
-                                            fmt::join(path.freedoms().idle, ", ")));
+                                            fmt::join(path.freedoms().idleNames(), ", ")));
     freedoms = fmt::format("{} freedom{} and as many motors; ", path.freedoms().freedoms,
                            path.freedoms().freedoms == 1 ? "" : "s");
     return out;

@@ -45,16 +45,6 @@ std::vector<std::size_t> distances(const MechanismParameters& machine) {
   return out;
 }
 
-std::size_t farthestBody(const MechanismParameters& machine) {
-  const std::vector<std::size_t> far = distances(machine);
-  std::size_t best = 0;
-  for (std::size_t b = 0; b < far.size(); ++b) {
-    const bool reached = far[b] <= machine.bodies.size(), has_mass = machine.bodies[b].mass > 0;
-    if (reached && has_mass && (machine.bodies[best].mass == 0 || far[b] > far[best])) best = b;
-  }
-  return best;
-}
-
 double sizeOf(const MechanismParameters& machine) {
   Eigen::AlignedBox3d box;
   for (const MechanismJoint& joint : machine.joints) {
@@ -65,6 +55,49 @@ double sizeOf(const MechanismParameters& machine) {
     if (body.mass > 0 && !body.fixed) box.extend(body.center_of_mass);
   const double size = box.isEmpty() ? 0 : box.diagonal().norm();
   return size > 0 ? size : 1;
+}
+
+/// Whether hinges and balls without loads let a body spin about one line, about which it is symmetric: its pose says
+/// nothing of the machine. What is left free by longer chains of joints is not looked for.
+bool spinsAlone(const MechanismParameters& machine, std::size_t b) {
+  const MechanismBody& body = machine.bodies[b];
+  Vector3d line = Vector3d::Zero();
+  std::vector<Vector3d> arms, axes;
+  for (const MechanismJoint& joint : machine.joints) {
+    const bool is_child = joint.child == b;
+    if ((!is_child && joint.parent != b) || joint.kind == JointKind::free) continue;
+    const bool is_motor = std::count(machine.motors.begin(), machine.motors.end(), joint.name) > 0;
+    if ((joint.kind != JointKind::revolute && joint.kind != JointKind::ball) || joint.isLoaded() || is_motor)
+      return false;
+    arms.emplace_back((is_child ? joint.centre_of_child : joint.centre) - body.center_of_mass);
+    if (joint.kind == JointKind::revolute)
+      axes.emplace_back(is_child ? joint.turn.transpose() * joint.axis[0] : joint.axis[0]);
+  }
+  for (const Vector3d& arm : arms)
+    if (arm.norm() > line.norm()) line = arm;
+  if (!axes.empty()) line = axes.front();
+  if (arms.empty() || line.isZero(0)) return false;
+  line.normalize();
+  const auto off = [&](const Vector3d& v) { return line.cross(v).norm(); };
+  const Matrix3d &I = body.inertia, along = line * line.transpose();
+  const double axial = line.dot(I * line), across = (I.trace() - axial) / 2;
+  const Matrix3d symmetric = across * Matrix3d::Identity() + (axial - across) * along;
+  return std::all_of(arms.begin(), arms.end(), [&](const auto& arm) { return off(arm) < 1e-7 * sizeOf(machine); }) &&
+         std::all_of(axes.begin(), axes.end(), [&](const auto& axis) { return off(axis) < 1e-7; }) &&
+         (I - symmetric).cwiseAbs().maxCoeff() <= 1e-6 * I.cwiseAbs().maxCoeff();
+}
+
+/// Returns the body farthest from the base that weighs anything, none that spins alone if there is another.
+std::size_t farthestBody(const MechanismParameters& machine) {
+  const std::vector<std::size_t> far = distances(machine);
+  std::size_t best = 0;
+  for (const bool spinning_too : {false, true})
+    for (std::size_t b = 0; b < far.size() && (!spinning_too || machine.bodies[best].mass == 0); ++b) {
+      const bool reached = far[b] <= machine.bodies.size(), has_mass = machine.bodies[b].mass > 0;
+      if (!reached || !has_mass || !(machine.bodies[best].mass == 0 || far[b] > far[best])) continue;
+      if (spinning_too || !spinsAlone(machine, b)) best = b;
+    }
+  return best;
 }
 
 }  // namespace

@@ -17,8 +17,9 @@ namespace ursula {
 ///
 /// Coordinates of motors are those of the file's joints, in the order of mechanism.motors(); efforts are conjugate to
 /// their rates. Loads of a ball or free joint act on the components of its rate: angular ones in the axes of the
-/// child's frame, linear ones in those of the parent's. A rod between two balls that could only spin about its own line
-/// has no absolute spin about it. Not thread-safe; each thread needs its own.
+/// child's frame, linear ones in those of the parent's. A body that closures and motors leave free to spin
+/// about its own line, as a rod between two balls, has no absolute spin about it. Not thread-safe; each thread needs
+/// its own.
 class SimbodyMechanism {
  public:
   enum class Tree {

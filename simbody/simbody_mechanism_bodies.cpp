@@ -1,9 +1,8 @@
 // Motions of a mechanism's bodies, with those that a cut gimbal leaves out of Simbody, and its idle spins.
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <numeric>
 
+#include "base/free_spins.h"
 #include "simbody/simbody_mechanism_internal.h"
 
 namespace ursula {
@@ -16,100 +15,22 @@ Vector6d movedTo(const Vector3d& arm, const Vector6d& at) {
   return out;
 }
 
-/// Bodies that fixed joints weld together, and slides too if asked for: the first of them stands for all.
-std::vector<std::size_t> groupsBy(const Mechanism& mechanism, bool slides_too) {
-  std::vector<std::size_t> group(mechanism.bodies().size());
-  std::iota(group.begin(), group.end(), std::size_t{0});
-  for (const MechanismJoint& joint : mechanism.joints()) {
-    const bool joins = joint.kind == JointKind::fixed || (slides_too && joint.slides());
-    if (!joins || joint.isOpen()) continue;
-    const std::size_t from = std::max(group[joint.parent], group[joint.child]);
-    const std::size_t to = std::min(group[joint.parent], group[joint.child]);
-    std::replace(group.begin(), group.end(), from, to);
-  }
-  return group;
-}
-
-/// Mass, mass centre and central inertia of a group.
-struct WeldedGroup {
-  double mass = 0, rounding = 0;
-  Vector3d center = Vector3d::Zero();
-  Matrix3d inertia = Matrix3d::Zero();
-};
-
-WeldedGroup groupOf(const Mechanism& mechanism, const std::vector<std::size_t>& groups, std::size_t group) {
-  WeldedGroup out;
-  const auto& bodies = mechanism.bodies();
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (groups[b] != group) continue;
-    out.mass += bodies[b].mass;
-    out.center += bodies[b].mass * bodies[b].center_of_mass;
-    out.rounding += bodies[b].inertia_rounding;
-  }
-  if (out.mass > 0) out.center /= out.mass;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (groups[b] != group) continue;
-    const Vector3d arm = bodies[b].mass > 0 ? Vector3d(bodies[b].center_of_mass - out.center) : Vector3d::Zero();
-    out.inertia +=
-        bodies[b].inertia + bodies[b].mass * (arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose());
-  }
-  return out;
-}
-
-/// Returns the line between the two balls of a strut, a rod or parts that slide along each other; zero if other joints
-/// or loads hold it.
-Vector3d lineOf(const Mechanism& mechanism, const std::vector<std::size_t>& struts, std::size_t strut) {
-  std::vector<Vector3d> balls;
-  bool is_free = true;
-  for (std::size_t b = 0; b < struts.size(); ++b)
-    is_free = is_free && !(struts[b] == strut && mechanism.bodies()[b].fixed);
-  for (const MechanismJoint& joint : mechanism.joints()) {
-    const bool of_parent = struts[joint.parent] == strut, of_child = struts[joint.child] == strut;
-    if (of_parent == of_child) continue;
-    is_free = is_free && joint.kind == JointKind::ball && !joint.isLoaded();
-    balls.push_back(of_parent ? joint.centre : joint.centre_of_child);
-  }
-  if (!is_free || balls.size() != 2 || (balls[1] - balls[0]).norm() < 1e-9 * mechanism.length())
-    return Vector3d::Zero();
-  const Vector3d line = (balls[1] - balls[0]).normalized();
-  for (const MechanismJoint& joint : mechanism.joints())
-    if (joint.slides() && struts[joint.parent] == strut && joint.axis[0].cross(line).norm() > 1e-9)
-      return Vector3d::Zero();
-  return line;
-}
-
-/// Whether a turn of the group about the line moves no mass and needs no force.
-bool isSymmetricAbout(const WeldedGroup& group, const Vector3d& on_line, const Vector3d& line, double length) {
-  constexpr double decimals = 1e-9;  // of a file that rounds its numbers
-  if (group.mass > 0 && line.cross(group.center - on_line).norm() > decimals * length) return false;
-  const Vector3d a = anyAcross(line), b = line.cross(a);
-  const Matrix3d& I = group.inertia;
-  const double room = decimals * I.cwiseAbs().maxCoeff() + 2 * group.rounding;
-  return std::abs(a.dot(I * a) - b.dot(I * b)) <= room && std::abs(a.dot(I * b)) <= room &&
-         std::abs(a.dot(I * line)) <= room && std::abs(b.dot(I * line)) <= room;
-}
-
 }  // namespace
 
-std::vector<IdleSpin> idleSpins(const Mechanism& mechanism) {
-  const std::vector<std::size_t> groups = groupsBy(mechanism, false), struts = groupsBy(mechanism, true);
-  std::vector<IdleSpin> out;
-  for (std::size_t strut = 0; strut < struts.size(); ++strut) {
-    if (struts[strut] != strut) continue;
-    const Vector3d line = lineOf(mechanism, struts, strut);
-    if (line.isZero(0)) continue;
-    const auto ball =
-        std::find_if(mechanism.joints().begin(), mechanism.joints().end(), [&](const MechanismJoint& joint) {
-          return joint.kind == JointKind::ball && (struts[joint.parent] == strut || struts[joint.child] == strut);
-        });
-    const Vector3d on_line = struts[ball->parent] == strut ? ball->centre : ball->centre_of_child;
-    bool is_round = true;
-    for (std::size_t b = 0; b < groups.size(); ++b)
-      if (groups[b] == b && struts[b] == strut)
-        is_round = is_round && isSymmetricAbout(groupOf(mechanism, groups, b), on_line, line, mechanism.length());
-    if (is_round) out.push_back({strut, line});
+void SimbodyMechanism::Impl::holdSpins() {
+  const LeastSquares factors(allRows());
+  Eigen::MatrixXd Z = factors.kernel();
+  for (std::size_t b = 0; b < bodies.size() && Z.cols() > 0; ++b) {
+    const MechanismBody& body = mechanism.bodies()[b];
+    if (body.fixed || isMassless(body)) continue;
+    const Eigen::Isometry3d at = displacement(b);
+    Eigen::MatrixXd J = frameJacobian(b, at * body.center_of_mass) * column_scale.asDiagonal();
+    J.bottomRows<3>() /= mechanism.length();
+    for (const Vector3d& line : takeSpins(J, Z)) spins.push_back({b, at.linear().transpose() * line});
   }
-  return out;
+  const Eigen::Index rows = row_scale.size();
+  row_scale.conservativeResize(rows + static_cast<Eigen::Index>(spins.size()));
+  row_scale.tail(row_scale.size() - rows).setOnes();
 }
 
 SimbodyMechanism::BodyState SimbodyMechanism::Impl::stateOf(

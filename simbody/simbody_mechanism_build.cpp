@@ -173,7 +173,7 @@ void SimbodyMechanism::Impl::addScales() {
     if (kind == JointKind::prismatic) column_scale(first) = length;
     if (kind == JointKind::free) column_scale.segment<3>(first + 3).setConstant(length);
   }
-  row_scale = Eigen::VectorXd::Ones(state.getNMultipliers() + static_cast<Eigen::Index>(spins.size()));
+  row_scale = Eigen::VectorXd::Ones(state.getNMultipliers());
   joint_of_row.resize(state.getNMultipliers());
   for (const CutRows& cut : cut_rows) {
     int count = 0, of_velocity = 0, of_acceleration = 0;
@@ -218,8 +218,7 @@ SimbodyMechanism::Impl::Impl(const Mechanism& of, Tree kind)
       forces(system),
       mechanism(of),
       tree(spanningTree(of, kind == Tree::other)),
-      bodies(of.bodies().size()),
-      spins(idleSpins(of)) {
+      bodies(of.bodies().size()) {
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (mechanism.bodies()[b].fixed) bodies[b].mobilizer = matter.Ground();
   for (const SpanningTree::Step& step : tree.steps) addStep(step);
@@ -235,6 +234,7 @@ SimbodyMechanism::Impl::Impl(const Mechanism& of, Tree kind)
   addSweeps();
   addCoordinates();
   close();
+  holdSpins();
   simbodys_own = spins.empty() && simbodyAgrees();
 }
 

@@ -19,6 +19,8 @@ class LeastSquares {
   explicit LeastSquares(const Eigen::MatrixXd& A);
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
   Eigen::Index rank() const { return rank_; }
+  /// Returns a basis of the x with A x = 0, as columns.
+  Eigen::MatrixXd kernel() const;
   /// Returns the indices of the independent columns.
   Eigen::VectorXi independentColumns() const;
 
@@ -59,14 +61,12 @@ struct CutRows {
   bool angular;
 };
 
-/// A group of welded bodies that could only spin about its own line, between two balls.
+/// A spin of a body about its own line that closures and motors leave free. Nothing drives it, so the body keeps û·ω,
+/// and it began at rest: û·ω = 0, whatever turns beside it.
 struct IdleSpin {
   std::size_t body;
   Vector3d line;  ///< at the reference pose
 };
-
-/// Returns the idle spins of a mechanism.
-std::vector<IdleSpin> idleSpins(const Mechanism& mechanism);
 
 /// Returns the angle from `from` to `to` about a unit axis.
 double angleAbout(const Vector3d& axis, const Vector3d& from, const Vector3d& to);
@@ -122,6 +122,8 @@ struct SimbodyMechanism::Impl {
   void addCoordinate(std::size_t joint);
   void addScales();
   void addSweeps();
+  /// Finds the idle spins, and holds them at rest.
+  void holdSpins();
   void addForces();
   /// Returns the joint's frame on its parent's or its child's side; the axes are given at the parent's side.
   SimTK::Transform side(std::size_t joint, bool of_child, const Matrix3d& axes) const;

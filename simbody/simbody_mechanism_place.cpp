@@ -46,6 +46,12 @@ Eigen::MatrixXd LeastSquares::solve(const Eigen::MatrixXd& b) const {
   return qr_.solve(b);
 }
 
+Eigen::MatrixXd LeastSquares::kernel() const {
+  if (!of_lower_rank_) return Eigen::MatrixXd::Identity(columns_, columns_ - rank_);
+  const Eigen::MatrixXd all = of_lower_rank_->colsPermutation() * Eigen::MatrixXd(of_lower_rank_->matrixZ().adjoint());
+  return all.rightCols(columns_ - of_lower_rank_->rank());
+}
+
 Eigen::VectorXi LeastSquares::independentColumns() const {
   if (rank_ == 0) return Eigen::VectorXi();
   return qr_.colsPermutation().indices().head(rank_);

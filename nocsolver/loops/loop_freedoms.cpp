@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.h"
 #include "base/text.h"
 #include "nocsolver/loops/loop_solver_internal.h"
 
@@ -25,18 +26,29 @@ MatrixXd twists(const Frames& frames, int element, const Lump& lump, const Matri
   return J * Z;
 }
 
-/// Returns the line about which the lump spins, in world axes, if that is all it does and changes nothing.
-bool spinsIdly(const MatrixXd& twist, const Matrix3d& inertia, Vector3d& axis) {
+/// Returns the lines about which the lump spins, in world axes, if that is all it does and changes nothing: one of its
+/// symmetry, or three of a ball.
+std::vector<Vector3d> idleLines(const MatrixXd& twist, const Matrix3d& inertia) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> angular(Matrix3d(twist.topRows<3>() * twist.topRows<3>().transpose()));
   const Vector3d squares = angular.eigenvalues();
-  if (!(squares(2) > 0) || squares(1) > negligible * negligible * squares(2)) return false;
-  if (twist.bottomRows<3>().squaredNorm() > negligible * negligible * squares(2)) return false;
-  axis = angular.eigenvectors().col(2);
-  const double size = inertia.cwiseAbs().maxCoeff();
-  const Vector3d x = axis.unitOrthogonal(), y = axis.cross(x);
-  const double apart = std::abs(x.dot(inertia * x) - y.dot(inertia * y)) + std::abs(x.dot(inertia * y)) +
-                       std::abs(x.dot(inertia * axis)) + std::abs(y.dot(inertia * axis));
-  return apart <= 1e-6 * size;
+  const double least = negligible * negligible * squares(2);
+  if (!(squares(2) > 0) || twist.bottomRows<3>().squaredNorm() > least) return {};
+  const Vector3d axis = angular.eigenvectors().col(2), x = axis.unitOrthogonal(), y = axis.cross(x);
+  const double axial = axis.dot(inertia * axis), across = x.dot(inertia * x);
+  double apart = std::abs(across - y.dot(inertia * y)) + std::abs(x.dot(inertia * y)) +
+                 std::abs(x.dot(inertia * axis)) + std::abs(y.dot(inertia * axis));
+  std::vector<Vector3d> out = {axis};
+  if (squares(1) > least) {
+    if (!(squares(0) > least)) return {};
+    apart += std::abs(axial - across);
+    out = {axis, x, y};
+  }
+  return apart <= 1e-6 * inertia.cwiseAbs().maxCoeff() ? out : std::vector<Vector3d>();
+}
+
+void addRows(const MatrixXd& rows, MatrixXd& stack) {
+  stack.conservativeResize(stack.rows() + rows.rows(), rows.cols());
+  stack.bottomRows(rows.rows()) = rows;
 }
 
 /// Names the joints that move most in the columns of Z.
@@ -69,31 +81,29 @@ void LoopSolver::Impl::findFreedoms(const LoopPose& pose, LoopFreedoms& out, std
   static_cast<void>(own.factorise(G));
   const MatrixXd Z = own.kernel(tree.rate_count);
   MatrixXd stack(0, Z.cols());
-  std::vector<RestingSpin> found;
+  idle.clear();
   for (std::size_t e = 0; e < lumps.size() && Z.cols() > 0; ++e) {
     if (lumps[e].isEmpty()) continue;
     const auto element = static_cast<int>(e);
     const MatrixXd twist = twists(frames, element, lumps[e], Z, mechanism.length());
     if (twist.norm() < negligible * Z.norm()) continue;
     const Matrix3d R = frames.at(element).R;
-    Vector3d axis;
-    if (spinsIdly(twist, R * lumps[e].inertia * R.transpose(), axis)) {
-      const double axial = axis.dot(R * lumps[e].inertia * R.transpose() * axis);
-      const double size = lumps[e].inertia.cwiseAbs().maxCoeff();
-      const Vector3d own_axis = R.transpose() * axis;
-      found.push_back({element, own_axis, std::sqrt(std::max(axial, 1e-6 * size))});
-    } else {
-      const Eigen::Index rows = stack.rows();
-      stack.conservativeResize(rows + 6, Z.cols());
-      stack.bottomRows(6) = twist;
-    }
+    const std::vector<Vector3d> lines = idleLines(twist, R * lumps[e].inertia * R.transpose());
+    for (const Vector3d& line : lines) idle.push_back({element, R.transpose() * line});
+    if (lines.empty()) addRows(twist, stack);
+    for (const std::size_t b : lumps[e].bodies)
+      if (!lines.empty())
+        out.idle.push_back(
+            {b, mechanism.bodies()[b].name, lines.size() == 1 ? idle.back().axis : Vector3d(Vector3d::Zero())});
   }
+  // A spin that damping, friction, a spring or a rotor feels has an effect. The tree keeps the joints that have these:
+  // a motion of one that is cut moves another of its loop.
+  for (int k = 0; k < tree.rate_count && Z.cols() > 0; ++k)
+    if (loads[k].acts() && Z.row(k).norm() > negligible * scale(k)) addRows(Z.row(k) / scale(k), stack);
   out.free = stack.rows() > 0 ? loops::rankByGap(stack).rank : 0;
-  // What moves in the kernel without a body that weighs anything is idle as well.
-  idle = found;
-  for (const RestingSpin& spin : found)
-    for (const std::size_t b : lumps[spin.element].bodies) out.idle.push_back(mechanism.bodies()[b].name);
-  if (out.free > 0) out.free_joints = movers(mechanism, tree, Z, scale);
+  // What moves in the kernel without a body that weighs anything, or a load, has no effect either.
+  if (out.free > 0)  // the motions that the rows see
+    out.free_joints = movers(mechanism, tree, Z * rightSingularVectors(stack).leftCols(out.free), scale);
   MatrixXd scaled = G;
   for (int k = 0; k < tree.rate_count; ++k) scaled.col(k) *= scale(k);
   const int rank = loops::rankByGap(scaled).rank;
@@ -109,6 +119,17 @@ void LoopSolver::Impl::findFreedoms(const LoopPose& pose, LoopFreedoms& out, std
     for (std::size_t i = 0; i < passive.size(); ++i) left += G.col(passive[i]) * x(static_cast<Eigen::Index>(i), 0);
     if (left.norm() > negligible * std::max(1.0, wanted.norm())) out.fighting.push_back(mechanism.motor(k).name);
   }
+}
+
+std::vector<std::string> LoopFreedoms::idleNames() const {
+  std::vector<std::string> out;
+  for (const IdleBody& each : idle) out.push_back(each.name);
+  return out;
+}
+
+const IdleBody* LoopFreedoms::idleBody(std::size_t body) const {
+  const auto found = std::find_if(idle.begin(), idle.end(), [&](const IdleBody& each) { return each.body == body; });
+  return found == idle.end() ? nullptr : &*found;
 }
 
 namespace {

@@ -14,7 +14,7 @@ using loops::PassiveRates;
 //   G_a q̇ + G_p u_p = 0:       u = N q̇,       N = [1; −G_p⁺ G_a]                                   (a)
 //   G u̇ + Ġu = 0:              u̇ = N q̈ + b,   b = [0; −G_p⁺ (Ġu)]                                  (b)
 // A body's twist is t = J u; so T = J N, and ṫ = T q̈ + J b + J̇u.                                    (c)
-// Idle spins are at rest: with Z the kernel of G_p and S u the weighted spins,
+// Idle spins are at rest: with Z the kernel of G_p and S u the spins û·ω,
 //   u becomes u − Z (S Z)⁺ S u, and u̇ becomes u̇ − Z (S Z)⁺ (S u̇ + Ṡ u).                            (d)
 
 void LoopSolver::Impl::stopSpins(const Frames& frames, const PassiveRates& solver, bool accelerations,
@@ -31,10 +31,10 @@ void LoopSolver::Impl::stopSpins(const Frames& frames, const PassiveRates& solve
     frames.addColumns(spins[i].element, frame.point, 1, angular, linear);
     const Vector3d axis = frame.R * spins[i].axis;
     const auto row = static_cast<Eigen::Index>(i);
-    S.row(row) = spins[i].weight * axis.transpose() * angular;
+    S.row(row) = axis.transpose() * angular;
     spin.row(row) = S.row(row) * u;
     // d(û·ω)/dt = û·α + (ω × û)·ω = û·α
-    if (accelerations) spin.row(row).array() += spins[i].weight * axis.dot(frame.alpha);
+    if (accelerations) spin.row(row).array() += axis.dot(frame.alpha);
   }
   const MatrixXd own = S * Z;
   u -= Z * leastNormSolution(own, spin);  // (d)

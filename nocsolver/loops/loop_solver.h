@@ -17,6 +17,14 @@ struct BodyState {
   Vector6d twist = Vector6d::Zero(), twist_rate = Vector6d::Zero();
 };
 
+/// A body that may spin about its own line of symmetry, without effect on any effort. Nothing drives the spin, and it
+/// began at rest, so that û·ω = 0 whatever turns beside it.
+struct IdleBody {
+  std::size_t body = 0;
+  std::string name;
+  Vector3d line = Vector3d::Zero();  ///< û at the reference pose; zero if a ball may turn about every line
+};
+
 /// The freedoms of a mechanism: as many motors as freedoms, idle ones aside.
 struct LoopFreedoms {
   int free = 0;                          ///< freedoms that no motor drives
@@ -24,7 +32,11 @@ struct LoopFreedoms {
   int freedoms = 0;                      ///< of the whole mechanism, without idle ones
   std::vector<std::string> free_joints;  ///< those that stay free
   std::vector<std::string> fighting;     ///< motors that fight each other
-  std::vector<std::string> idle;         ///< bodies that may spin about their own line of symmetry, without effect
+  std::vector<IdleBody> idle;
+
+  std::vector<std::string> idleNames() const;
+  /// Returns the idle body of this index, or null.
+  const IdleBody* idleBody(std::size_t body) const;
 };
 
 /// The loops cannot follow the motors, or are too near to a singular pose.

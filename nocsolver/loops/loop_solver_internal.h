@@ -9,11 +9,10 @@ namespace ursula {
 using loops::MatrixXd;
 using loops::VectorXd;
 
-/// Bodies that may spin without effect on any effort: the row û·J_ω of each, weighted by the root of its axial inertia.
+/// A spin without effect on any effort: its row is û·J_ω.
 struct RestingSpin {
   int element = -1;
   Vector3d axis = Vector3d::Zero();  ///< at the reference pose
-  double weight = 1;
 };
 
 /// What a body of the tree weighs, merged over bodies that move as one.

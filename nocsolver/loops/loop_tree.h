@@ -10,6 +10,8 @@ namespace ursula::loops {
 struct CoordinateLoad {
   double damping = 0, friction = 0, speed = 1, rotor = 0, stiffness = 0, spring_reference = 0;
   double position = 0;  ///< the file's coordinate at the reference pose
+
+  bool acts() const { return damping != 0 || friction != 0 || rotor != 0 || stiffness != 0; }
 };
 
 enum class ElementKind { turn, slide, ball };

@@ -71,16 +71,6 @@ std::vector<Vector3d> axesAcross(const Vector3d* axis) {
   return {t, axis->cross(t)};
 }
 
-/// Whether a turn about the line moves no mass.
-bool isIdleAbout(const WeldedBodies& weld, const Vector3d& line, const Vector3d& ball, double length) {
-  constexpr double decimals = 1e-9;  // of a file that rounds its numbers
-  if (weld.mass > 0 && line.cross(weld.center - ball).norm() > decimals * length) return false;
-  const Matrix3d& I = weld.inertia;
-  const double across = (I.trace() - line.dot(I * line)) / 2;
-  const Matrix3d symmetric = across * Matrix3d::Identity() + (line.dot(I * line) - across) * line * line.transpose();
-  return (I - symmetric).cwiseAbs().maxCoeff() <= decimals * I.cwiseAbs().maxCoeff() + 4 * weld.rounding;
-}
-
 }  // namespace
 
 JointRowNow rowNow(const JointRow& row, const WeldState& a, const WeldState& b) {
@@ -133,61 +123,6 @@ std::vector<JointCoordinate> coordinatesOf(const Mechanism& mechanism, std::size
                     : Vector3d(mechanism.bodies()[row.is_on_b ? joint.child : joint.parent].frame.linear().col(k % 3));
     if (row.is_on_b && has_axes) row.along = joint.turn.transpose() * row.along;
     out.push_back({&joint, k, row});
-  }
-  return out;
-}
-
-namespace {
-
-/// Welds that slides join: the first of them stands for all.
-std::vector<std::size_t> strutsOf(const Mechanism& mechanism, const WeldedMechanism& welded) {
-  std::vector<std::size_t> strut(welded.welds.size());
-  for (std::size_t b = 0; b < strut.size(); ++b) strut[b] = b;
-  for (const MechanismJoint& joint : mechanism.joints()) {
-    if (!joint.slides() || joint.isOpen()) continue;
-    const std::size_t a = strut[welded.parentOf(joint)], b = strut[welded.childOf(joint)];
-    std::replace(strut.begin(), strut.end(), std::max(a, b), std::min(a, b));
-  }
-  return strut;
-}
-
-/// Returns the two balls of a strut that nothing else holds, and that slides along their line; else none.
-std::vector<Vector3d> ballsOf(const Mechanism& mechanism, const WeldedMechanism& welded,
-                              const std::vector<std::size_t>& strut, std::size_t of) {
-  std::vector<Vector3d> balls;
-  for (const MechanismJoint& joint : mechanism.joints()) {
-    const bool of_parent = strut[welded.parentOf(joint)] == of, of_child = strut[welded.childOf(joint)] == of;
-    if (of_parent == of_child) continue;
-    if (joint.kind != JointKind::ball || joint.isLoaded()) return {};
-    balls.push_back(of_parent ? joint.centre : joint.centre_of_child);
-  }
-  if (balls.size() != 2 || (balls[1] - balls[0]).norm() < 1e-9 * mechanism.length()) return {};
-  const Vector3d line = (balls[1] - balls[0]).normalized();
-  for (const MechanismJoint& joint : mechanism.joints())
-    if (joint.slides() && strut[welded.parentOf(joint)] == of && joint.axis[0].cross(line).norm() > 1e-9) return {};
-  return balls;
-}
-
-}  // namespace
-
-std::vector<JointRow> idleRows(const Mechanism& mechanism, const WeldedMechanism& welded) {
-  std::vector<JointRow> out;
-  const std::vector<std::size_t> strut = strutsOf(mechanism, welded);
-  for (std::size_t of = 1; of < strut.size(); ++of) {
-    if (strut[of] != of) continue;
-    const std::vector<Vector3d> balls = ballsOf(mechanism, welded, strut, of);
-    if (balls.empty()) continue;
-    const Vector3d line = (balls[1] - balls[0]).normalized();
-    bool is_idle = true;
-    for (std::size_t b = 1; b < strut.size(); ++b)
-      if (strut[b] == of) is_idle = is_idle && isIdleAbout(welded.welds[b], line, balls[0], mechanism.length());
-    if (!is_idle) continue;
-    JointRow row;
-    row.kind = Kind::turn;
-    row.b = of;
-    row.along = line;
-    row.is_on_b = true;
-    out.push_back(row);
   }
   return out;
 }

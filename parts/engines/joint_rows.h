@@ -14,7 +14,6 @@ struct WeldedBodies {
   double mass = 0;
   Vector3d center = Vector3d::Zero();  ///< of mass; without mass, of a joint
   Matrix3d inertia = Matrix3d::Zero();
-  double rounding = 0;                     ///< of the inertia, by missing digits in the file
   double weight = 0;                       ///< the mass that gravity acts on
   Vector3d weight_arm = Vector3d::Zero();  ///< from center to where it acts
 };
@@ -74,7 +73,5 @@ std::vector<JointRow> rowsOf(const Mechanism& mechanism, std::size_t joint, cons
 /// joints then also linear ones in the parent's.
 std::vector<JointCoordinate> coordinatesOf(const Mechanism& mechanism, std::size_t joint,
                                            const WeldedMechanism& welded);
-/// Returns the spins of rods between two balls about their own line, where these move no mass.
-std::vector<JointRow> idleRows(const Mechanism& mechanism, const WeldedMechanism& welded);
 
 }  // namespace ursula

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/free_spins.h"
+
 namespace ursula {
 namespace {
 
@@ -29,7 +31,6 @@ MechanismClosing::MechanismClosing(const Mechanism& mechanism, const WeldedMecha
     : mechanism_(mechanism), speeds_(speeds) {
   for (const std::size_t j : cut)
     for (const JointRow& row : rowsOf(mechanism, j, welded)) rows_.push_back(row);
-  for (const JointRow& row : idleRows(mechanism, welded)) rows_.push_back(row);
   const auto& motors = mechanism.motors();
   for (const std::size_t j : motors) coordinates_.push_back(coordinatesOf(mechanism, j, welded).front());
   for (std::size_t j = 0; j < mechanism.joints().size(); ++j) {
@@ -50,6 +51,34 @@ MechanismClosing::MechanismClosing(const Mechanism& mechanism, const WeldedMecha
     if (speeds.isLinear(i)) column_scale_(i) = length;
   for (const JointCoordinate& each : coordinates_) near_.push_back(each.joint->position);
   close();
+  holdSpins(welded);
+}
+
+void MechanismClosing::holdSpins(const WeldedMechanism& welded) {
+  Eigen::MatrixXd Z = RankedFactors(allRows(motorCount())).kernel();
+  const std::size_t joints = rows_.size();
+  for (std::size_t w = 1; w < welded.welds.size() && Z.cols() > 0; ++w) {
+    if (welded.welds[w].mass == 0 && welded.welds[w].inertia.isZero(0)) continue;
+    Eigen::MatrixXd J(6, speeds_.count());
+    for (int k = 0; k < 6; ++k) {
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(speeds_.count());
+      speeds_.addRow(w, Vector6d::Unit(k) / (k < 3 ? 1 : mechanism_.length()), row);
+      J.row(k) = row.cwiseProduct(column_scale_).transpose();
+    }
+    for (const Vector3d& line : takeSpins(J, Z)) {
+      JointRow row;
+      row.kind = JointRow::Kind::turn;
+      row.b = w;
+      row.along = speeds_.state(w).R.transpose() * line;
+      row.is_on_b = true;
+      rows_.push_back(row);
+    }
+  }
+  // The motors' rows come last.
+  const Eigen::VectorXd of_motors = row_scale_.tail(motorCount());
+  row_scale_.conservativeResize(rowCount() + motorCount());
+  row_scale_.segment(static_cast<Eigen::Index>(joints), rowCount() - static_cast<Eigen::Index>(joints)).setOnes();
+  row_scale_.tail(motorCount()) = of_motors;
 }
 
 MechanismClosing::Form MechanismClosing::formOf(const JointRow& row, bool with_bias) const {

@@ -58,7 +58,8 @@ class SpeedsOfWelds {
 };
 
 /// Places a mechanism by Newton's method with the motors' coordinates prescribed, and finds its speeds and their rates
-/// from the rows of its joints, of which any number may be redundant.
+/// from the rows of its joints, of which any number may be redundant. A weld that motors and joints leave free to spin
+/// about its own line has no absolute spin about it: what nothing drives stays at rest.
 class MechanismClosing {
  public:
   /// `cut`: the joints that the engine's speeds do not hold by themselves. Throws std::domain_error if the loops cannot
@@ -109,6 +110,7 @@ class MechanismClosing {
   Eigen::MatrixXd complement() const;
   bool newton(const Eigen::VectorXd& target);
   void close();
+  void holdSpins(const WeldedMechanism& welded);
   void moveTo(const MotorMotion& motion);
   const std::string& worstJoint() const;
 

@@ -46,6 +46,12 @@ Eigen::MatrixXd RankedFactors::solve(const Eigen::MatrixXd& b) const {
   return once + qr_.solve(b - A_ * once);
 }
 
+Eigen::MatrixXd RankedFactors::kernel() const {
+  if (!deficient_) return Eigen::MatrixXd(qr_.cols(), 0);
+  const Eigen::MatrixXd all = deficient_->colsPermutation() * Eigen::MatrixXd(deficient_->matrixZ().adjoint());
+  return all.rightCols(qr_.cols() - deficient_->rank());
+}
+
 Eigen::VectorXd RankedFactors::solveTransposed(const Eigen::VectorXd& b) const {
   const Eigen::VectorXd once = solveTransposedOnce(b);
   return once + solveTransposedOnce(b - A_.transpose() * once);

@@ -10,6 +10,8 @@ class RankedFactors {
  public:
   explicit RankedFactors(const Eigen::MatrixXd& A);
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+  /// Returns a basis of the x with A x = 0, as columns.
+  Eigen::MatrixXd kernel() const;
   /// Solves Aᵀ x = b.
   Eigen::VectorXd solveTransposed(const Eigen::VectorXd& b) const;
 

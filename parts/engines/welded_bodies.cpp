@@ -39,7 +39,6 @@ void addBody(const MechanismBody& body, WeldedBodies& weld) {
     weld.mass += body.mass;
   }
   weld.inertia += body.inertia;
-  weld.rounding += body.inertia_rounding;
 }
 
 }  // namespace

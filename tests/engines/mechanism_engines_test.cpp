@@ -14,6 +14,7 @@
 #include "parts/engines/closed_mechanism.h"
 #include "parts/engines/voting_engines.h"
 #include "tests/engines/loop_rows.h"
+#include "tests/support/idle_wheels.h"
 
 namespace ursula {
 namespace {
@@ -82,6 +83,22 @@ TYPED_TEST(MechanismEngines, takeRedundantClosures) {
         joint.axis[0] = machine.joints[0].axis[0];
       }
     EXPECT_LT(errorOf<TypeParam>(machine, loopRows(name, machine.motors.size())), room) << name;
+  }
+}
+
+/// Wheels that nothing drives keep û·ω = 0: they have the efforts of welded ones without axial inertia.
+TYPED_TEST(MechanismEngines, holdIdleWheelsAtRest) {
+  for (const char* name : machines) {
+    MechanismParameters machine = loopMachine(name);
+    addWheels(machine, Mechanism(machine).output());
+    MechanismParameters welded = machine;
+    weldWheels(welded);
+    std::vector<LoopRow> rows = loopRows(name, machine.motors.size());
+    ClosedMechanism reference{Mechanism(welded), TypeParam::build};
+    for (LoopRow& row : rows) row.efforts = reference.inverseDynamics(row.motion);
+    EXPECT_LT(errorOf<TypeParam>(machine, rows), room) << name;
+    machine.bodies.back().mass *= 1.01;
+    EXPECT_GT(errorOf<TypeParam>(machine, rows), 1e2 * room) << name;
   }
 }
 

@@ -13,6 +13,7 @@
 
 #include "base/csv.h"
 #include "tests/engines/loop_rows.h"
+#include "tests/support/idle_wheels.h"
 
 namespace ursula {
 namespace {
@@ -55,6 +56,34 @@ class LoopOfFile : public testing::TestWithParam<std::string> {
 };
 
 constexpr Tree trees[] = {Tree::other, Tree::of_file};
+
+/// Wheels that nothing drives keep û·ω = 0: they have the efforts of welded ones without axial inertia.
+TEST_P(LoopOfFile, holdsIdleWheelsAtRest) {
+  MechanismParameters machine = loopMachine(GetParam());
+  addWheels(machine, mechanism_.output());
+  MechanismParameters welded = machine;
+  weldWheels(welded);
+  for (const Tree tree : trees) {
+    SimbodyMechanism reference(Mechanism(welded), tree), loop(Mechanism(machine), tree);
+    std::vector<LoopRow> rows = rows_;
+    double moving = 0, spin = 0;
+    for (LoopRow& row : rows) {
+      reference.place(row.motion);
+      row.efforts = reference.inverseDynamics();
+      loop.place(row.motion);
+      const SimbodyMechanism::BodyState wheel = loop.bodies().back();
+      moving = std::max(moving, wheel.twist.head<3>().norm());
+      spin = std::max(spin,
+                      std::abs(wheel.twist.head<3>().dot(wheel.displacement.linear() * machine.joints.back().axis[0])));
+    }
+    EXPECT_LT(effortError(Mechanism(machine), tree, rows), 10 * room);
+    EXPECT_TRUE(moving > 1e-3 || GetParam() == "delta") << moving;  // its plate only translates
+    EXPECT_LT(spin, 1e-12);
+    MechanismParameters wrong = machine;
+    wrong.bodies.back().mass *= 1.01;
+    EXPECT_GT(effortError(Mechanism(wrong), tree, rows), 1e3 * room);
+  }
+}
 
 TEST_P(LoopOfFile, hasTheEffortsOfTheVectors) {
   for (const Tree tree : trees) {

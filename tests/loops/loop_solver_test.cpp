@@ -83,8 +83,7 @@ TEST(LoopSolver, holdsIdleRodsAtRestAndNamesThem) {
   double moving = 0, spin = 0;
   for (std::size_t b = 0; b < scenario.mechanism->bodies().size(); ++b) {
     const MechanismBody& body = scenario.mechanism->bodies()[b];
-    if (std::find(along.freedoms().idle.begin(), along.freedoms().idle.end(), body.name) == along.freedoms().idle.end())
-      continue;
+    if (along.freedoms().idleBody(b) == nullptr) continue;
     // The line is the axis of the moment of inertia that has no equal.
     const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(body.inertia);
     const Vector3d I = axes.eigenvalues();

@@ -11,9 +11,6 @@
 namespace ursula {
 namespace {
 
-/// Half the angle's sine of a relative rotation, times two: the angle for small ones.
-double turnBetween(const Matrix3d& a, const Matrix3d& b) { return (a - b).norm() / std::sqrt(2.0); }
-
 double twistSize(const Vector6d& twist, double length) {
   return twist.tail<3>().norm() + length * twist.head<3>().norm();
 }
@@ -64,15 +61,14 @@ int rankOfShaping(const LoopWork& work, double length) {
   return loops::rankByGap(all).rank;
 }
 
-void compareBodies(const SimbodyMechanism& engine, const LoopWork& work, double length, const std::vector<char>& idle,
+void compareBodies(const SimbodyMechanism& engine, const LoopWork& work, double length, const LoopFreedoms& freedoms,
                    MechanismSample& sample) {
   const auto theirs = engine.bodies();
   for (std::size_t b = 0; b < theirs.size(); ++b) {
     const BodyState& ours = work.bodies[b];
     const Vector3d moved = ours.displacement.inverse() * ours.center;
-    const double place =
-        (theirs[b].displacement * moved - ours.center).norm() +
-        (idle[b] != 0 ? 0 : length * turnBetween(theirs[b].displacement.linear(), ours.displacement.linear()));
+    const double place = (theirs[b].displacement * moved - ours.center).norm() +
+                         length * turnBetween(theirs[b].displacement, ours.displacement, freedoms.idleBody(b));
     sample.position = larger(sample.position, place);
     sample.twist = larger(sample.twist, twistSize(theirs[b].twist - ours.twist, length));
     sample.twist_rate = larger(sample.twist_rate, twistSize(theirs[b].twist_rate - ours.twist_rate, length));
@@ -122,16 +118,6 @@ MotorEfforts changeWithin(const LoopMotion& motion, double t, double time, const
   return out;
 }
 
-/// Whether each body is idle: how far it has turned about its own line is anybody's choice.
-std::vector<char> idleBodies(const LoopSolver& solver) {
-  const auto& bodies = solver.mechanism().bodies();
-  const std::vector<std::string> spinning = solver.freedoms(solver.assembled()).idle;
-  std::vector<char> out(bodies.size(), 0);
-  for (std::size_t b = 0; b < out.size(); ++b)
-    out[b] = std::find(spinning.begin(), spinning.end(), bodies[b].name) != spinning.end() ? 1 : 0;
-  return out;
-}
-
 /// Returns the sample's part that every judged instant has; `work` is then at that instant.
 MechanismSample nocAt(const LoopMotion& motion, double t, LoopWork& work) {
   MechanismSample out;
@@ -144,14 +130,14 @@ MechanismSample nocAt(const LoopMotion& motion, double t, LoopWork& work) {
 }
 
 /// Adds what Simbody, the other engines and direct dynamics say of a sample; `work` is at its instant.
-void addEngines(const std::vector<char>& idle, bool direct, LoopWork& work, const MechanismEvidence& evidence,
+void addEngines(const LoopFreedoms& freedoms, bool direct, LoopWork& work, const MechanismEvidence& evidence,
                 MechanismSample& sample) {
   const Mechanism& mechanism = *evidence.scenario->mechanism;
   const LoopSolver& solver = evidence.motion->solver();
   sample.output = work.bodies[mechanism.output()].displacement * mechanism.bodies()[mechanism.output()].frame;
   for (const MechanismEngine& engine : evidence.engines) sample.engines.push_back(engine.efforts(sample.motion));
   SimbodyMechanism& simbody = evidence.placed();
-  compareBodies(simbody, work, mechanism.length(), idle, sample);
+  compareBodies(simbody, work, mechanism.length(), freedoms, sample);
   sample.acceleration = simbody.accelerations(sample.subject);
   sample.across = acrossOf(mechanism, work);
   sample.rank = rankOfShaping(work, mechanism.length());
@@ -192,7 +178,7 @@ std::vector<MechanismSample> samplesAt(const std::vector<double>& instants, cons
   const LoopMotion& motion = *evidence.motion;
   std::vector<MotorEfforts> answers;
   if (subject.answers) answers = answersOf(subject, false, motion, instants, deadline);
-  const std::vector<char> idle = idleBodies(motion.solver());
+  const LoopFreedoms freedoms = motion.solver().freedoms(motion.solver().assembled());
   LoopWork work;
   std::vector<MechanismSample> out;
   for (std::size_t i = 0; i < instants.size(); ++i) {
@@ -203,7 +189,7 @@ std::vector<MechanismSample> samplesAt(const std::vector<double>& instants, cons
     sample.given = subject.given ? subject.given->precision[i] : MotorEfforts::Zero(sample.noc.size());
     if (subject.given && !subject.given->time_precision.empty())
       sample.given += changeWithin(motion, instants[i], subject.given->time_precision[i], sample.noc);
-    addEngines(idle, subject.isNoc(), work, evidence, sample);
+    addEngines(freedoms, subject.isNoc(), work, evidence, sample);
     evidence.largest = std::max(evidence.largest, sample.noc.cwiseProduct(evidence.efforts_in).cwiseAbs().maxCoeff());
     out.push_back(std::move(sample));
   }

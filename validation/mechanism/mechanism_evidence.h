@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -21,6 +22,13 @@ constexpr double rounding = std::numeric_limits<double>::epsilon();
 
 /// Efforts of all motors, one entry each.
 using MotorEfforts = Eigen::VectorXd;
+
+/// Returns the sine of a small turn between two displacements of a body. How far an idle one has turned about its own
+/// line is anybody's choice: then it is that between the lines.
+inline double turnBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, const IdleBody* idle) {
+  const Matrix3d apart = a.linear() - b.linear();
+  return idle != nullptr ? (apart * idle->line).norm() : apart.norm() / std::sqrt(2.0);
+}
 
 /// What a solver is asked about one instant: the motors' motion, and all other joints'.
 struct MechanismQuestion {

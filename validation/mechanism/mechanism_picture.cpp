@@ -86,7 +86,7 @@ std::shared_ptr<const MechanismPicture> makePicture(const MechanismScenario& sce
                                                     int instants) {
   auto out = std::make_shared<MechanismPicture>(described(scenario));
   out->freedoms = along.freedoms().freedoms;
-  out->idle = along.freedoms().idle;
+  out->idle = along.freedoms().idleNames();
   out->t = equallySpaced(out->duration, instants);
   LoopWork work;
   for (const double t : out->t) {

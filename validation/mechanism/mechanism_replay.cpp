@@ -60,10 +60,6 @@ class Replayer {
   Deadline deadline_;
 };
 
-double turnBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
-  return (a.linear() - b.linear()).norm() / std::sqrt(2.0);
-}
-
 /// The sample nearest to an instant, for its limits.
 const MechanismSample& sampleAt(const MechanismEvidence& evidence, double t) {
   const MechanismSample* best = &evidence.samples.front();
@@ -109,6 +105,10 @@ void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const
   }
   Replayer replayer(scenario, efforts, deadline);
   const Vector3d center = mechanism.bodies()[mechanism.output()].center_of_mass;
+  const LoopFreedoms freedoms = evidence.motion->solver().freedoms(evidence.motion->solver().assembled());
+  const auto turn = [&](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+    return turnBetween(a, b, freedoms.idleBody(mechanism.output()));
+  };
   LoopWork work;
   for (int w = 0; w < windows; ++w) {
     MechanismWindow window;
@@ -131,12 +131,12 @@ void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const
       return (a * center - b * center).norm();
     };
     window.position = apart(fine.output, wanted);
-    window.orientation = turnBetween(fine.output, wanted);
+    window.orientation = turn(fine.output, wanted);
     window.order_gain = apart(fine.output, coarse.output);
     const double floor = evidence.level * rounding * sample.condition * sample.condition;
     window.position_limit = allowance * (window.order_gain + apart(noisy.output, coarse.output) + floor * length);
     window.orientation_limit =
-        allowance * (turnBetween(fine.output, coarse.output) + turnBetween(noisy.output, coarse.output) + floor);
+        allowance * (turn(fine.output, coarse.output) + turn(noisy.output, coarse.output) + floor);
     window.closure_position = fine.closure.position;
     window.closure_velocity = fine.closure.velocity;
     const double own_steps = (std::abs(fine.closure.position - coarse.closure.position));

@@ -190,7 +190,7 @@ void addFacts(const MechanismAlong& along, const MechanismSubject& subject, cons
   words("freedoms", fmt::format("{}, one for each motor", along.freedoms().freedoms));
   if (!along.freedoms().idle.empty())
     words("held at rest",
-          listOf(along.freedoms().idle) + ": a spin about the body's own line has no effect on any effort");
+          listOf(along.freedoms().idleNames()) + ": a spin about the body's own line has no effect on any effort");
   double condition = 0, at = 0;
   for (const MechanismSample& sample : evidence.samples)
     if (sample.condition > condition) condition = sample.condition, at = sample.motion.t;
