@@ -108,6 +108,8 @@ class MechanismClosing {
   /// N of u = N q̇, by S N = 1 and G N = 0.
   Eigen::MatrixXd complement() const;
   bool newton(const Eigen::VectorXd& target);
+  /// Moves the speeds' configuration to mechanism.start(), if there is one.
+  void goToStart(const WeldedMechanism& welded);
   void close();
   void moveTo(const MotorMotion& motion);
   const std::string& worstJoint() const;

@@ -147,7 +147,8 @@ struct MechanismEvidence {
   double largest = 0;             ///< effort along the motion, in the shown unit
   std::string unit;               ///< "N m", or "N" if all motors slide
   std::string not_replayed, out_of_time;
-  Cover cover;  ///< by a file's rows; of other subjects only the widest gap
+  std::string replay_diverged;  ///< why no window could be judged
+  Cover cover;                  ///< by a file's rows; of other subjects only the widest gap
 
   /// The growth of rounding in an effort of motor k with pose and machine, in the shown unit.
   double shape(const MechanismSample& sample, Eigen::Index k) const;
