@@ -152,6 +152,7 @@ int initFromModel(const std::string& file, const std::string& model, const std::
   }
   const SmallMotion motion = alongLoops(scenario, [&] { return motionFor(scenario); });
   for (const std::string& text : scenario.read.warnings) say("{}\n", withoutControls(text));
+  if (const std::string moved = assemblyInWords(LoopSolver(*scenario.mechanism)); !moved.empty()) say("{}\n", moved);
   writeOutput(file,
               schemaLine(file) + textOf(nameFor(file, model), pathFrom(file, model), *scenario.mechanism, motion));
   if (file != "-") say("wrote {}; next: ursula check {}\n", file, shellWord(file));

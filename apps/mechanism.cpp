@@ -111,6 +111,7 @@ CheckedScenario checkMechanism(const MechanismScenario& scenario, const std::str
       static_cast<void>(path.motion().inverseDynamics(t, work));
     CheckedScenario out{scenario.file.string(), scenario.name};
     out.warnings = scenario.read.warnings;
+    if (std::string moved = assemblyInWords(path.solver()); !moved.empty()) out.warnings.push_back(std::move(moved));
     out.assumptions = scenario.read.assumptions;
     if (!path.freedoms().idle.empty())
       out.assumptions.push_back(fmt::format("held at rest, since a spin about their own line has no effect: {}",

@@ -73,6 +73,9 @@ struct MechanismParameters {
   std::vector<MechanismBody> bodies;
   std::vector<MechanismJoint> joints;
   std::vector<std::string> motors;  ///< driven joints, in the order of efforts
+  /// Displacement of each body from the reference pose, x = D x₀, where the loops are closed; empty if the reference
+  /// pose closes them to the file's digits. Angles lie within half a turn.
+  std::vector<Eigen::Isometry3d> start;
 };
 
 /// Raw parameters of a possible mechanism; immutable. Its motors are joints of one coordinate each.
@@ -94,6 +97,9 @@ class Mechanism {
   /// Returns "Nm" or "N", as in column names.
   const char* effortUnit(std::size_t k) const { return motor(k).slides() ? "N" : "Nm"; }
   std::size_t output() const { return output_; }  ///< index of a body
+  /// Where engines begin to close the loops: parameters().start.
+  const std::vector<Eigen::Isometry3d>& start() const { return parameters_.start; }
+  void startAt(std::vector<Eigen::Isometry3d> start) { parameters_.start = std::move(start); }
   /// Returns the diameter of the cloud of its joints and mass centres at the reference pose, m, > 0.
   double length() const { return length_; }
 

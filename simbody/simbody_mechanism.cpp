@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "simbody/simbody_mechanism_internal.h"
@@ -84,12 +85,14 @@ void SimbodyMechanism::setState(double t, const double* y) {
   for (int i = 0; i < nu; ++i) u[i] = y[nq + i];
 }
 
-void SimbodyMechanism::derivative(double t, const double* y, const Eigen::VectorXd& efforts, double* y_dot) {
+void SimbodyMechanism::derivative(double t, const double* y, const Eigen::VectorXd& efforts, double* y_dot) try {
   setState(t, y);
   impl_->u_dot = impl_->simbodys_own ? impl_->byMultipliers(efforts) : impl_->eliminated(efforts);
   const SimTK::Vector& q_dot = impl_->state.getQDot();
   for (int i = 0; i < q_dot.size(); ++i) y_dot[i] = q_dot[i];
   for (int i = 0; i < impl_->u_dot.size(); ++i) y_dot[q_dot.size() + i] = impl_->u_dot[i];
+} catch (const SimTK::Exception::Base&) {  // it asserts that masses are numbers
+  std::fill_n(y_dot, stateSize(), std::nan(""));
 }
 
 void SimbodyMechanism::project() {

@@ -99,7 +99,7 @@ class SimbodyMechanism {
   /// Sets time and state.
   void setState(double t, const double* y);
   /// Computes ẏ at (t, y) under `efforts`: where Simbody's own accelerations serve, with its M⁻¹ and the same
-  /// multipliers by fewer sweeps of the tree.
+  /// multipliers by fewer sweeps of the tree. Where these are beyond all numbers, ẏ is not finite.
   void derivative(double t, const double* y, const Eigen::VectorXd& efforts, double* y_dot);
   /// Moves the state onto the closures by least movement, positions and rates. Throws std::domain_error if it cannot.
   void project();

@@ -213,6 +213,21 @@ void SimbodyMechanism::Impl::addSweeps() {
   }
 }
 
+void SimbodyMechanism::Impl::setStart() {
+  const auto& start = mechanism.start();
+  if (start.empty()) return;
+  const auto placed = [&](std::size_t b) {
+    if (mechanism.bodies()[b].fixed) return SimTK::Transform();
+    return SimTK::Transform(toSimTK(Matrix3d(start[b].linear())), toSimTK(Vector3d(start[b] * bodies[b].origin)));
+  };
+  for (const SpanningTree::Step& step : tree.steps) {
+    const SimTK::MobilizedBody& body = bodies[step.outboard].mobilizer;
+    const SimTK::Transform F = step.joint == SpanningTree::none ? SimTK::Transform() : placed(step.inboard);
+    body.setQToFitTransform(
+        state, ~(F * body.getDefaultInboardFrame()) * placed(step.outboard) * body.getDefaultOutboardFrame());
+  }
+}
+
 SimbodyMechanism::Impl::Impl(const Mechanism& of, Tree kind)
     : matter(system),
       forces(system),
@@ -227,6 +242,7 @@ SimbodyMechanism::Impl::Impl(const Mechanism& of, Tree kind)
   addForces();
   state = system.realizeTopology();
   system.realizeModel(state);
+  setStart();
   q_of_file = state.getQ();
   u_dot = SimTK::Vector(state.getNU(), 0.0);
   system.realize(state, SimTK::Stage::Instance);

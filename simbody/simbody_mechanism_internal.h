@@ -125,6 +125,8 @@ struct SimbodyMechanism::Impl {
   /// Finds the idle spins, and holds them at rest.
   void holdSpins();
   void addForces();
+  /// Moves the mobilizers to mechanism.start(), if there is one.
+  void setStart();
   /// Returns the joint's frame on its parent's or its child's side; the axes are given at the parent's side.
   SimTK::Transform side(std::size_t joint, bool of_child, const Matrix3d& axes) const;
 

@@ -74,6 +74,15 @@ MatrixXd PassiveRates::kernel(int rates) const {
   return out;
 }
 
+// G_p P Z' = Q [T 0; 0 0]: between the same directions the next G_p has an r × r block like T.
+bool PassiveRates::keepsSign(const MatrixXd& G) const {
+  if (rank_ == 0 || G.rows() == 0) return true;
+  MatrixXd next = factors_.householderQ().adjoint() * MatrixXd(scaled(G) * factors_.colsPermutation());
+  if (rank_ < next.cols()) next = (next * factors_.matrixZ().adjoint()).eval();
+  const double before = factors_.matrixQTZ().diagonal().head(rank_).prod();
+  return before * next.topLeftCorner(rank_, rank_).determinant() > 0;
+}
+
 double PassiveRates::reciprocalCondition() const {
   if (rank_ == 0) return 1;
   const auto diagonal = factors_.matrixQTZ().diagonal().cwiseAbs();

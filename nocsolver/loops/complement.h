@@ -24,6 +24,9 @@ class PassiveRates {
   MatrixXd solve(const MatrixXd& y) const;
   /// Returns a basis of the motions that G_p leaves free, all rates × freedoms; the motors' rows are zero.
   MatrixXd kernel(int rates) const;
+  /// Returns whether the determinant of G_p, among the directions of the factorised one, has kept its sign on the way
+  /// to this one. Where it has not, a singular pose lies between them, or they are far apart.
+  bool keepsSign(const MatrixXd& G) const;
   /// Returns σ_r/σ_1, the reciprocal condition number of G_p, from its factors.
   double reciprocalCondition() const;
 

@@ -73,8 +73,7 @@ void LoopSolver::Impl::fill(const MotorMotion& motion, const LoopPose& near, Fra
   if (!std::isfinite(moved) || work.closing > 1e-6) refuse(work.pose, "the loops cannot be closed");
   MatrixXd G(closures.rows(), tree.rate_count);
   closures.jacobian(frames, G);
-  if (!solver.factorise(G))
-    throw LoopError("the pose is singular: passive joints can move while the motors stand still");
+  if (!solver.factorise(G)) throw LoopError(singular_pose);
   work.reciprocal_condition = solver.reciprocalCondition();
   complement(frames, G, solver, work.N);
   work.u = work.N * motion.qdot;
@@ -107,7 +106,7 @@ void LoopSolver::kinematics(const MotorMotion& motion, const LoopPose& near, Loo
 
 void moveToStart(const LoopSolver& solver, const MotorTrajectory& trajectory, LoopPose& pose) {
   try {
-    solver.moveTo(trajectory.at(0).q, pose);
+    solver.moveTo(trajectory.at(0).q, pose, true);
   } catch (const LoopError& error) {
     throw LoopError(std::string(error.what()) + ", on the way from the file's pose to t = 0 s");
   }
@@ -126,7 +125,7 @@ void LoopMotion::follow(double from, double to, int depth) {
   constexpr int deepest = 10;
   LoopPose pose = poses_.back();
   try {
-    solver_->moveTo(trajectory_->at(to).q, pose);
+    solver_->moveTo(trajectory_->at(to).q, pose, true);
   } catch (const LoopError& error) {
     if (depth == deepest) throw LoopError(std::string(error.what()) + ", at t = " + std::to_string(to) + " s");
     const double middle = from + (to - from) / 2;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/dense.h"
 #include "base/text.h"
 #include "nocsolver/loops/loop_solver_internal.h"
 
@@ -93,14 +94,14 @@ double LoopSolver::Impl::errorOf(const Frames& frames, std::size_t* joint) const
   return out;
 }
 
-void LoopSolver::Impl::refuse(const LoopPose& pose, const std::string& what) const {
+void LoopSolver::Impl::refuse(const LoopPose& pose, const std::string& what, const std::string& more) const {
   Frames frames(tree);
   frames.place(pose);
   std::size_t joint = mechanism.joints().size();
   const double error = errorOf(frames, &joint);
   const std::string name = joint < mechanism.joints().size() ? shown(mechanism.joints()[joint].name) : "a loop";
-  throw LoopError(
-      fmt::format("{}: the loop that '{}' closes is open by {:.2g} of the machine's length", what, name, error));
+  throw LoopError(fmt::format("{}: the loop that '{}' closes is open by {:.2g} of the machine's length{}", what, name,
+                              error, more));
 }
 
 /// Gauss-Newton of least norm over the rates of `solver`.
@@ -133,36 +134,23 @@ double LoopSolver::Impl::close(LoopPose& pose, Frames& frames, PassiveRates& sol
   return std::numeric_limits<double>::infinity();
 }
 
-void LoopSolver::Impl::assemble() {
-  reference = zeroPose();
+LoopSolver::Impl::Conditions LoopSolver::Impl::conditionsAt(const LoopPose& pose) const {
   Frames frames(tree);
-  frames.place(reference);
-  gap = errorOf(frames, nullptr);
-  constexpr double closed = 1e-6, most = 1e-7;
-  // What the file closes to its digits is closed by the passive joints; an open one by all, with least movement.
-  std::vector<int> all(tree.rate_count);
-  for (int k = 0; k < tree.rate_count; ++k) all[k] = k;
-  PassiveRates solver(gap > closed ? all : passive, scale);
-  MatrixXd G(closures.rows(), tree.rate_count);
-  for (int k = 0; k < 30; ++k) {  // the rank may change while a gap closes
-    frames.place(reference);
-    closures.jacobian(frames, G);
-    solver.decideRank(G);
-    LoopPose next = reference;
-    static_cast<void>(close(next, frames, solver, 1));
-    reference = next;
-    frames.place(reference);
-    if (errorOf(frames, nullptr) < 1e-13) break;
-  }
-  if (!(errorOf(frames, nullptr) < most)) refuse(reference, "the file's pose cannot be closed");
+  MatrixXd G(closures.rows(), tree.rate_count), G_p(closures.rows(), static_cast<Eigen::Index>(passive.size()));
+  frames.place(pose);
   closures.jacobian(frames, G);
-  rates.decideRank(G);
-  static_cast<void>(rates.factorise(G));
-  LoopFreedoms ignored;
-  findFreedoms(reference, ignored, spins);
+  G = (G * scale.asDiagonal()).eval();
+  for (std::size_t k = 0; k < passive.size(); ++k) G_p.col(static_cast<Eigen::Index>(k)) = G.col(passive[k]);
+  const auto last = [this](const MatrixXd& of) {
+    if (rates.rank() == 0) return 1.0;
+    const VectorXd sigma = singularValues(of);
+    return sigma(rates.rank() - 1) / sigma(0);
+  };
+  return {last(G_p), last(G)};
 }
 
-bool LoopSolver::Impl::step(const VectorXd& from, const VectorXd& to, LoopPose& pose) const {
+LoopSolver::Impl::Step LoopSolver::Impl::step(const VectorXd& from, const VectorXd& to, bool watched,
+                                              LoopPose& pose) const {
   constexpr double most_turn = 0.5, free_of_check = 0.02, share = 0.2;
   LoopPose next = pose;
   Frames frames(tree);
@@ -170,17 +158,23 @@ bool LoopSolver::Impl::step(const VectorXd& from, const VectorXd& to, LoopPose& 
   MatrixXd G(closures.rows(), tree.rate_count), N;
   frames.place(next);
   closures.jacobian(frames, G);
-  if (!solver.factorise(G)) return false;
+  if (!solver.factorise(G)) return Step::singular;
+  std::optional<PassiveRates> before;
+  if (watched) before = solver;
   complement(frames, G, solver, N);
   VectorXd predicted = N * (to - from);
   for (int k = 0; k < motors(); ++k) predicted(tree.rate_of_motor[k]) = to(k) - next.q(tree.rate_of_motor[k]);
   const double size = predicted.cwiseQuotient(scale).cwiseAbs().maxCoeff();
-  if (size > most_turn) return false;
+  if (size > most_turn) return Step::too_long;
   loops::advance(tree, predicted, next);
   const double moved = close(next, frames, solver, 12);
-  if (!(moved <= std::max(free_of_check, share * size)) || errorOf(frames, nullptr) > 1e-6) return false;
+  if (!(moved <= std::max(free_of_check, share * size)) || errorOf(frames, nullptr) > 1e-6) return Step::too_long;
+  if (before) {
+    closures.jacobian(frames, G);
+    if (!before->keepsSign(G)) return Step::singular;
+  }
   pose = next;
-  return true;
+  return Step::made;
 }
 
 LoopSolver::LoopSolver(const Mechanism& mechanism) : impl_(std::make_unique<Impl>(mechanism)) {}
@@ -205,7 +199,7 @@ LoopFreedoms LoopSolver::freedoms(const LoopPose& pose) const {
   return out;
 }
 
-void LoopSolver::moveTo(const VectorXd& q, LoopPose& pose) const {
+void LoopSolver::moveTo(const VectorXd& q, LoopPose& pose, bool watched) const {
   constexpr double least = 1.0 / 65536;
   const Impl& own = *impl_;
   VectorXd from(own.motors()), to(own.motors());
@@ -216,17 +210,25 @@ void LoopSolver::moveTo(const VectorXd& q, LoopPose& pose) const {
   double done = 0, share = 1;
   while (done < 1) {
     const double next = std::min(1.0, done + share);
-    if (own.step(from + done * (to - from), next == 1 ? to : VectorXd(from + next * (to - from)), pose)) {
+    const Impl::Step made =
+        own.step(from + done * (to - from), next == 1 ? to : VectorXd(from + next * (to - from)), watched, pose);
+    if (made == Impl::Step::made) {
       done = next;
       share *= 2;
       continue;
     }
     share /= 2;
     if (share < least) {
+      // Where a reach ends, the loops still hold all directions with the motors'; at a singular pose they lose one.
+      constexpr double nearly = 1e-2, much = 0.1;
+      const Impl::Conditions at = own.conditionsAt(pose);
+      if (made == Impl::Step::singular && at.all < std::sqrt(at.passive)) throw LoopError(singular_pose);
       LoopPose tried = pose;
       for (int k = 0; k < own.motors(); ++k)
         tried.q(own.tree.rate_of_motor[k]) = from(k) + std::min(1.0, done + 0.02) * (to(k) - from(k));
-      own.refuse(tried, "the loops cannot follow the motors");
+      const bool singular = at.passive < nearly && at.passive < much * own.conditionsAt(own.reference).passive;
+      own.refuse(tried, "the loops cannot follow the motors",
+                 singular ? "; the pose before it is singular, as where a reach ends" : "");
     }
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,22 @@ struct LoopFreedoms {
   const IdleBody* idleBody(std::size_t body) const;
 };
 
+/// A loop that is locked or loose at a pose, as if its links were in a line.
+struct SingularLoop {
+  std::string closing;              ///< the joint that closes it
+  int line = 0;                     ///< of that joint in the file; 0 if unknown
+  std::vector<std::string> joints;  ///< those of the tree in the loop
+  loops::VectorXd motors;           ///< coordinates of the motors at a pose nearby that is not singular
+  LoopFreedoms freedoms;            ///< there
+};
+
+/// How far a joint's coordinate was moved, rad or m; `share` counts lengths by the machine's.
+struct JointMove {
+  std::string joint;
+  double by = 0, share = 0;
+  bool slides = false;
+};
+
 /// The loops cannot follow the motors, or are too near to a singular pose.
 class LoopError : public std::runtime_error {
  public:
@@ -67,19 +84,25 @@ class LoopSolver {
   ~LoopSolver();
   LoopSolver(LoopSolver&&) noexcept;
 
+  /// Returns the mechanism; where the reference pose is open, with the start at which its loops are closed.
   const Mechanism& mechanism() const;
   /// Returns the reference pose, its open closures closed by least movement. Throws LoopError if that fails.
   loops::LoopPose assembled() const;
   /// Returns how far that moved a body or closed a gap, relative to the machine's length.
   double assemblyGap() const;
+  /// Returns which joint it moved the most.
+  JointMove assemblyMove() const;
   /// Returns the motors' coordinates of a pose.
   loops::VectorXd motorCoordinates(const loops::LoopPose& pose) const;
   /// Returns the freedoms at a pose.
   LoopFreedoms freedoms(const loops::LoopPose& pose) const;
 
   /// Moves the motors of `pose` to q in steps small enough that the loops stay on their branch. Throws LoopError with
-  /// the loop that cannot follow.
-  void moveTo(const loops::VectorXd& q, loops::LoopPose& pose) const;
+  /// the loop that cannot follow, or that says that a pose is singular. A watched path crosses no singular pose either:
+  /// steps are halved until the determinant of the passive rates keeps its sign.
+  void moveTo(const loops::VectorXd& q, loops::LoopPose& pose, bool watched = false) const;
+  /// Returns the loop that makes a pose singular: at a pose nearby it holds more directions. Null if there is none.
+  std::optional<SingularLoop> singularLoop(const loops::LoopPose& pose) const;
 
   /// Fills `work` for motors that move as `motion` says, from a pose near it. Throws LoopError.
   void kinematics(const MotorMotion& motion, const loops::LoopPose& near, LoopWork& work) const;
@@ -108,6 +131,9 @@ class LoopSolver {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Says which loop makes the file's pose singular, and what to do.
+std::string singularWords(const Mechanism& mechanism, const SingularLoop& loop);
 
 /// Moves a pose to where the motion starts. Throws LoopError, which says so.
 void moveToStart(const LoopSolver& solver, const MotorTrajectory& trajectory, loops::LoopPose& pose);

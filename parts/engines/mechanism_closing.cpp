@@ -50,6 +50,7 @@ MechanismClosing::MechanismClosing(const Mechanism& mechanism, const WeldedMecha
   for (Eigen::Index i = 0; i < speeds.count(); ++i)
     if (speeds.isLinear(i)) column_scale_(i) = length;
   for (const JointCoordinate& each : coordinates_) near_.push_back(each.joint->position);
+  if (!mechanism.start().empty()) goToStart(welded);
   close();
   holdSpins(welded);
 }
@@ -146,6 +147,48 @@ bool MechanismClosing::newton(const Eigen::VectorXd& target) {
     if (size <= near_enough) return errors(&target).norm() <= near_enough;
   }
   return false;
+}
+
+void MechanismClosing::goToStart(const WeldedMechanism& welded) {
+  constexpr int most = 100;
+  const auto& start = mechanism_.start();
+  std::vector<Eigen::Isometry3d> placed(welded.welds.size(), Eigen::Isometry3d::Identity());
+  for (std::size_t b = 0; b < start.size(); ++b)
+    if (welded.of_body[b] != 0) placed[welded.of_body[b]] = start[b];
+  // Hinges and slides that are coordinates go there at once, the others by Newton's method on the welds' poses.
+  Eigen::VectorXd by = Eigen::VectorXd::Zero(speeds_.count());
+  for (std::size_t j = 0; j < mechanism_.joints().size(); ++j) {
+    const MechanismJoint& joint = mechanism_.joints()[j];
+    const auto own = freedomsOf(joint.kind) == 1 ? speeds_.own(j, 0) : std::nullopt;
+    if (!own) continue;
+    const Eigen::Isometry3d turn = placed[welded.parentOf(joint)].inverse() * placed[welded.childOf(joint)];
+    const Vector3d &axis = joint.axis[0], across = axis.unitOrthogonal(), turned = turn.linear() * across;
+    by(own->speed) = own->sign * (joint.slides() ? axis.dot(turn * joint.centre - joint.centre)
+                                                 : std::atan2(axis.dot(across.cross(turned)), across.dot(turned)));
+  }
+  speeds_.step(by);
+  for (int i = 0; i < most; ++i) {
+    Eigen::MatrixXd rows(6 * (placed.size() - 1), speeds_.count());
+    Eigen::VectorXd apart(rows.rows());
+    for (std::size_t w = 1; w < placed.size(); ++w) {
+      const WeldState& now = speeds_.state(w);
+      const Eigen::AngleAxisd turn(Matrix3d(placed[w].linear() * now.R.transpose()));
+      const auto first = static_cast<Eigen::Index>(6 * (w - 1));
+      apart.segment<3>(first) = turn.angle() * turn.axis();
+      apart.segment<3>(first + 3) =
+          (placed[w] * welded.welds[w].center - welded.welds[0].center - now.c) / mechanism_.length();
+      for (Eigen::Index k = 0; k < 6; ++k) {
+        Eigen::VectorXd row = Eigen::VectorXd::Zero(speeds_.count());
+        speeds_.addRow(w, Vector6d::Unit(k), row);
+        rows.row(first + k) = row.cwiseProduct(column_scale_).transpose() / (k < 3 ? 1 : mechanism_.length());
+      }
+    }
+    Eigen::VectorXd step = RankedFactors(rows).solve(apart);
+    const double size = step.cwiseAbs().maxCoeff();
+    if (!(size > near_enough)) return;
+    if (size > 1) step /= size;
+    speeds_.step(column_scale_.cwiseProduct(step));
+  }
 }
 
 void MechanismClosing::close() {

@@ -109,6 +109,8 @@ class MechanismClosing {
   /// N of u = N q̇, by S N = 1 and G N = 0.
   Eigen::MatrixXd complement() const;
   bool newton(const Eigen::VectorXd& target);
+  /// Moves the speeds' configuration to mechanism.start(), if there is one.
+  void goToStart(const WeldedMechanism& welded);
   void close();
   void holdSpins(const WeldedMechanism& welded);
   void moveTo(const MotorMotion& motion);

@@ -138,8 +138,40 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair("fourbar_weld_across_hinge", "1 motor for 0 freedoms"),
                     std::pair("fourbar_out_of_reach", "the loops cannot follow the motors"),
                     std::pair("rssr_rod_unequal", "1 motor for 2 freedoms; these joints are left free: rod_ball"),
-                    std::pair("hexapod_seven", "7 motors for 6 freedoms")),
+                    std::pair("hexapod_seven", "7 motors for 6 freedoms"),
+                    std::pair("parallelogram_through", "the pose is singular: passive joints can move"),
+                    std::pair("parallelogram_back", "the pose is singular: passive joints can move"),
+                    std::pair("parallelogram_touching", "the pose is singular: passive joints can move"),
+                    std::pair("parallelogram_standing", "singular: passive joints can move"),
+                    std::pair("in_line", "the file's pose is singular: the loop of input, j2, j3 that 'loop'")),
     [](const auto& machine) { return std::string(machine.param.first); });
+
+TEST(RefusedLoops, areFollowedBesideASingularPose) {
+  const MechanismScenario scenario = loopScenario("refused/parallelogram_beside");
+  const MechanismAlong along(scenario);
+  EXPECT_FALSE(along.solver().singularLoop(along.solver().assembled()));
+  LoopWork work;
+  static_cast<void>(along.motion().inverseDynamics(0.5, work));
+  EXPECT_LT(work.reciprocal_condition, 0.1) << "it passes close by";
+}
+
+TEST(RefusedLoops, sayTheSingularLoopAndAPoseThatIsNot) {
+  const MechanismScenario scenario = loopScenario("refused/in_line");
+  try {
+    const LoopSolver solver(*scenario.mechanism);
+    ADD_FAILURE() << "accepted";
+  } catch (const LoopError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("'loop' of line 5 closes"));
+    EXPECT_THAT(error.what(), HasSubstr("such as with input at "));
+    EXPECT_THAT(error.what(), HasSubstr("`key` of [mechanism]"));
+  }
+  // A little beside the line the loop closes.
+  const MechanismScenario bent = changedScenario(scenario, [](MechanismParameters& machine) {
+    for (MechanismJoint& joint : machine.joints)
+      if (joint.closure) joint.centre_of_child.y() += 0.01;
+  });
+  EXPECT_NO_THROW(LoopSolver(*bent.mechanism));
+}
 
 /// Stands still, but for an instant.
 class Excursion : public MotorTrajectory {

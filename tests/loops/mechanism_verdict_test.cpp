@@ -45,6 +45,22 @@ MechanismScenario shortened(MechanismScenario scenario) {
   return scenario;
 }
 
+/// Three revolutions there and back in two seconds: a replay in few steps grows beyond all numbers.
+TEST(FastMotions, haveAVerdict) {
+  for (const double turns : {3.2, 6.5}) {
+    MechanismScenario scenario = shortened(loopScenario("../../../scenarios/mechanisms/fourbar"));
+    scenario.trajectory = makeFourier(2, 2, {{0.1, {turns}, {0.1}}});
+    const ValidationResult result = validateMechanism(scenario);
+    EXPECT_NE(result.verdict, Verdict::fail) << turns;
+    const Check* check = findCheck(result.checks, "torque.pointwise");
+    ASSERT_NE(check, nullptr);
+    EXPECT_EQ(check->verdict, Verdict::pass);
+    GivenEfforts wrong = effortsOf(scenario);
+    for (MotorEfforts& efforts : wrong.efforts) efforts *= 1.001;
+    EXPECT_EQ(judged(scenario, std::move(wrong)).verdict, Verdict::fail);
+  }
+}
+
 class MechanismVerdict : public testing::TestWithParam<const char*> {};
 
 TEST_P(MechanismVerdict, ofTheNocIsPass) {

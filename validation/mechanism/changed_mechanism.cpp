@@ -26,6 +26,11 @@ void transform(const Matrix3d& R, const Vector3d& shift, double scale, Mechanism
     for (Vector3d& axis : joint.axis) axis = (R * axis).eval();
   }
   machine.gravity = (scale * (R * machine.gravity)).eval();
+  for (Eigen::Isometry3d& start : machine.start) {
+    const Matrix3d turn = R * start.linear() * R.transpose();
+    start.translation() = (scale * (R * start.translation() + shift - turn * shift)).eval();
+    start.linear() = turn;
+  }
 }
 
 /// Multiplies what acts along joints by factors of force and time, each slide also by those of length.
@@ -87,6 +92,7 @@ ChangedMechanism relabelled(const Mechanism& mechanism) {
   }
   std::reverse(machine.bodies.begin(), machine.bodies.end());
   std::reverse(machine.joints.begin(), machine.joints.end());
+  std::reverse(machine.start.begin(), machine.start.end());
   for (MechanismJoint& joint : machine.joints) {
     joint.parent = bodies - 1 - joint.parent;
     joint.child = bodies - 1 - joint.child;

@@ -168,6 +168,11 @@ std::vector<Check> judgeWindows(const Judge& judge) {
       {"closure.velocity", "m/s", "their rates", &W::closure_velocity, &W::closure_velocity_limit, speed}};
   std::vector<Check> out;
   for (const Row& row : rows) {
+    if (!judge.evidence_.replay_diverged.empty()) {
+      out.push_back(notJudgeable(Reason::not_covered, row.name, std::nan(""), std::nan(""), row.unit, "",
+                                 judge.evidence_.replay_diverged));
+      continue;
+    }
     WorstShare worst;
     for (const W& window : judge.evidence_.windows) worst.add(window.*row.value, window.*row.limit, window.end);
     CheckedQuantity of{row.name, row.unit, row.size};
@@ -245,7 +250,7 @@ std::vector<Check> judgeMechanism(const MechanismEvidence& evidence, const Mecha
     for (Check& check : judgeKinematics(judge)) out.push_back(std::move(check));
     for (const MechanismInvariance& each : evidence.invariances) out.push_back(judgeInvariance(judge, each));
   }
-  if (!evidence.windows.empty())
+  if (!evidence.windows.empty() || !evidence.replay_diverged.empty())
     for (Check& check : judgeWindows(judge)) out.push_back(std::move(check));
   return out;
 }

@@ -155,6 +155,7 @@ struct MechanismEvidence {
   double largest = 0;             ///< effort along the motion, in the shown unit
   std::string unit;               ///< "N m", or "N" if all motors slide
   std::string not_replayed, out_of_time;
+  std::string replay_diverged;       ///< why no window could be judged
   bool gives_accelerations = false;  ///< as in MechanismSubject
   /// A solver, to be asked for terms apart; empty if the subject is none.
   std::function<std::vector<MotorEfforts>(const std::vector<MechanismQuestion>&)> ask;

@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "simbody/simbody_mechanism.h"
@@ -29,9 +32,12 @@ class Replayer {
         deadline_(deadline) {}
 
   /// Integrates from the commanded state at `start` in equal steps of Fehlberg's order 8, with `more` added to efforts.
-  End run(const MotorMotion& start, double end, int steps, const MotorEfforts& more) {
+  /// Returns nullopt if the motion grows beyond all numbers.
+  std::optional<End> run(const MotorMotion& start, double end, int steps, const MotorEfforts& more) {
     simbody_.place(start);
-    State y = simbody_.state();
+    const State placed = simbody_.state();
+    State y = placed;
+    constexpr double huge = 1e30;  // its squares are still numbers
     boost::numeric::odeint::runge_kutta_fehlberg78<State> stepper;
     const double h = (end - start.t) / steps;
     const auto system = [&](const State& at, State& rate, double t) {
@@ -40,9 +46,12 @@ class Replayer {
     for (int k = 0; k < steps; ++k) {
       deadline_.require();
       stepper.do_step(system, y, start.t + k * h, h);
+      if (std::all_of(y.begin(), y.end(), [](double each) { return std::abs(each) < huge; })) continue;
+      simbody_.setState(start.t, placed.data());  // the next window continues from there
+      return std::nullopt;
     }
     simbody_.setState(end, y.data());
-    return {simbody_.bodies()[output_].displacement, simbody_.closure()};
+    return End{simbody_.bodies()[output_].displacement, simbody_.closure()};
   }
 
  private:
@@ -84,26 +93,14 @@ double shortestTime(const MechanismEvidence& evidence) {
   return out;
 }
 
-}  // namespace
-
-void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const Deadline& deadline,
-                     MechanismEvidence& evidence) {
+/// Runs windows of so many steps. Returns false if a motion grows beyond all numbers.
+bool replayWindows(Replayer& replayer, int steps, MechanismEvidence& evidence) {
   constexpr double allowance = 10;
-  const MechanismScenario& scenario = *evidence.scenario;
-  const Mechanism& mechanism = *scenario.mechanism;
-  const double duration = scenario.trajectory->duration(), length = mechanism.length();
-  const double step_bound = shortestTime(evidence);
-  int steps = 8;
-  while (duration / window_count / steps > 0.5 * step_bound && steps < 4096) steps *= 2;
   // As much work whatever the step: fewer windows if they need more steps.
-  constexpr int most_steps = 64, work_of_all = 12 * 16;
+  constexpr int work_of_all = 12 * 16;
   const int windows = std::clamp(work_of_all / steps, 2, window_count);
-  if (steps > most_steps) {
-    evidence.not_replayed =
-        "friction changes within a time that no explicit step follows; accelerations are compared instead";
-    return;
-  }
-  Replayer replayer(scenario, efforts, deadline);
+  const Mechanism& mechanism = *evidence.scenario->mechanism;
+  const double duration = evidence.scenario->trajectory->duration(), length = mechanism.length();
   const Vector3d center = mechanism.bodies()[mechanism.output()].center_of_mass;
   const LoopFreedoms freedoms = evidence.motion->solver().freedoms(evidence.motion->solver().assembled());
   const auto turn = [&](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
@@ -121,10 +118,12 @@ void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const
       noise(k) =
           ((k % 2 == 0) ? 1 : -1) * evidence.limit(sample, k, evidence.acceleration_level) / evidence.efforts_in(k);
     const MotorEfforts none = MotorEfforts::Zero(noise.size());
-    const End coarse = replayer.run(start, window.end, steps, none),
-              fine = replayer.run(start, window.end, 2 * steps, none);
     // Where half the step changes more than the efforts' rounding does, order_gain has it.
-    const End noisy = replayer.run(start, window.end, steps, noise);
+    const std::optional<End> runs[] = {replayer.run(start, window.end, steps, none),
+                                       replayer.run(start, window.end, 2 * steps, none),
+                                       replayer.run(start, window.end, steps, noise)};
+    if (!runs[0] || !runs[1] || !runs[2]) return false;
+    const End &coarse = *runs[0], &fine = *runs[1], &noisy = *runs[2];
     static_cast<void>(evidence.motion->inverseDynamics(window.end, work));
     const Eigen::Isometry3d wanted = work.bodies[mechanism.output()].displacement;
     const auto apart = [&](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
@@ -146,6 +145,31 @@ void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const
         allowance * (std::abs(fine.closure.velocity - coarse.closure.velocity) + floor * sample.twist_size);
     evidence.windows.push_back(window);
   }
+  return true;
+}
+
+}  // namespace
+
+void replayMechanism(const std::function<MotorEfforts(double t)>& efforts, const Deadline& deadline,
+                     MechanismEvidence& evidence) {
+  constexpr int most_steps = 64;
+  const MechanismScenario& scenario = *evidence.scenario;
+  const double window = scenario.trajectory->duration() / window_count, step_bound = shortestTime(evidence);
+  int steps = 8;
+  while (window / steps > 0.5 * step_bound && steps < 4096) steps *= 2;
+  if (steps > most_steps) {
+    evidence.not_replayed =
+        "friction changes within a time that no explicit step follows; accelerations are compared instead";
+    return;
+  }
+  Replayer replayer(scenario, efforts, deadline);
+  for (; steps <= most_steps; steps *= 2) {
+    if (replayWindows(replayer, steps, evidence)) return;
+    evidence.windows.clear();
+  }
+  evidence.replay_diverged = fmt::format(
+      "Simbody's motion under the efforts grows beyond all numbers within a window of {:.3g} s, even in {} steps",
+      window, most_steps);
 }
 
 }  // namespace ursula

@@ -26,22 +26,6 @@ std::string listOf(const std::vector<std::string>& names) {
   return out;
 }
 
-void requireMotors(const MechanismScenario& scenario, const LoopFreedoms& found) {
-  if (found.free == 0 && found.contradicted == 0) return;
-  std::string what =
-      fmt::format("{}: error: {} motor{} for {} freedom{}", scenario.file.string(), scenario.mechanism->motorCount(),
-                  scenario.mechanism->motorCount() == 1 ? "" : "s", found.freedoms, found.freedoms == 1 ? "" : "s");
-  if (found.free > 0) what += fmt::format("; these joints are left free: {}", listOf(found.free_joints));
-  if (found.contradicted > 0)
-    what += found.fighting.empty()
-                ? "; the motors fight each other"
-                : fmt::format("; these motors fight each other or the loops: {}", listOf(found.fighting));
-  if (found.freedoms == 0) what += "; nothing can move: `base` or `close` of [mechanism] may hold a link of a loop";
-  throw ScenarioError(what +
-                      ". Expected as many motors as freedoms: see `motors` of [mechanism], and which joints the "
-                      "model's closures fix");
-}
-
 /// The engines of the core: Simbody with two spanning trees.
 MakeMechanismEngine simbodyEngine(SimbodyMechanism::Tree tree, const char* check, const char* voice) {
   return [tree, check, voice](const MechanismScenario& scenario) {
@@ -200,6 +184,7 @@ void addFacts(const MechanismAlong& along, const MechanismSubject& subject, cons
   if (along.solver().assemblyGap() > 1e-9)
     result.findings.push_back({"gap of the file's pose, of the machine's length, closed by least movement", "",
                                along.solver().assemblyGap()});
+  if (const std::string moved = assemblyInWords(along.solver()); !moved.empty()) words("assembly", moved);
   if (subject.given && !subject.given->read_as.empty()) words("effort file read as", subject.given->read_as);
   if (subject.given && !subject.given->ignored.empty()) words("columns ignored", listOf(subject.given->ignored));
   if (!evidence.not_replayed.empty()) words("replay", "none: " + evidence.not_replayed);
@@ -217,21 +202,12 @@ MechanismSubject asAsked(MechanismSubject subject, const MechanismOptions& optio
 
 }  // namespace
 
-MechanismAlong::MechanismAlong(const MechanismScenario& scenario) {
-  solver_ = std::make_unique<LoopSolver>(*scenario.mechanism);
-  loops::LoopPose start = solver_->assembled();
-  requireMotors(scenario, solver_->freedoms(start));
-  moveToStart(*solver_, *scenario.trajectory, start);
-  freedoms_ = solver_->freedoms(start);
-  requireMotors(scenario, freedoms_);
-  motion_ = std::make_unique<LoopMotion>(*solver_, *scenario.trajectory, start);
-}
-
-ValidationResult validateMechanism(const MechanismScenario& scenario, const MechanismSubject& given,
+ValidationResult validateMechanism(const MechanismScenario& read, const MechanismSubject& given,
                                    const MechanismOptions& options) {
   const MechanismSubject subject = asAsked(given, options);
   const Deadline deadline(options.time_limit, options.asked_to_end);
-  const MechanismAlong along(scenario);
+  const MechanismAlong along(read);
+  const MechanismScenario& scenario = along.scenario();
   std::vector<MakeMechanismEngine> makers = {
       simbodyEngine(SimbodyMechanism::Tree::other, "torque.pointwise", "Simbody, other joints cut"),
       simbodyEngine(SimbodyMechanism::Tree::of_file, "torque.twin", "Simbody, the file's closures cut")};

@@ -20,23 +20,29 @@ struct MechanismOptions {
 
 /// Validates a mechanism of any kind: as validate() does a manipulator, by the same catalogue of checks. Throws
 /// LoopError where the loops cannot follow the motion, ScenarioError for a wrong number of motors.
-ValidationResult validateMechanism(const MechanismScenario& scenario, const MechanismSubject& subject = {},
+ValidationResult validateMechanism(const MechanismScenario& read, const MechanismSubject& subject = {},
                                    const MechanismOptions& options = {});
 
 /// The solver of a scenario along its motion, with as many motors as freedoms. Throws ScenarioError that names the
-/// joints that are left free, or the motors that fight each other. Keeps the scenario.
+/// joints that are left free, or the motors that fight each other.
 class MechanismAlong {
  public:
   explicit MechanismAlong(const MechanismScenario& scenario);
+  /// Returns the scenario; where the file's pose is open, the mechanism has the start at which its loops are closed.
+  const MechanismScenario& scenario() const { return scenario_; }
   const LoopMotion& motion() const { return *motion_; }
   const LoopSolver& solver() const { return *solver_; }
   const LoopFreedoms& freedoms() const { return freedoms_; }
 
  private:
+  MechanismScenario scenario_;
   std::unique_ptr<LoopSolver> solver_;
   LoopFreedoms freedoms_;
   std::unique_ptr<LoopMotion> motion_;
 };
+
+/// Says by how much closing the file's pose moved a joint; empty where it is little.
+std::string assemblyInWords(const LoopSolver& solver);
 
 /// Returns the machine at so many equally spaced instants of its motion, at least two.
 std::shared_ptr<const MechanismPicture> makePicture(const MechanismScenario& scenario, const MechanismAlong& along,
