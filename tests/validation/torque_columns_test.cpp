@@ -100,6 +100,36 @@ TEST(TorqueColumns, takesUnitsThatANameTells) {
   EXPECT_EQ(file.torque_precision[0](0), 5) << "half a unit of the last digit, in N m";
 }
 
+/// A header of "Motor 1 torque (kNm)" and the like; `{}` is the motor.
+std::string headerOf(const std::string& form) {
+  std::string out = "t_s";
+  for (int k = 1; k <= 6; ++k) out += "," + std::string(form).replace(form.find("{}"), 2, std::to_string(k));
+  return out + "\n";
+}
+
+TEST(TorqueColumns, takesTheMotorsNumberBeforeOrAfterTheWord) {
+  const std::pair<const char*, double> forms[] = {{"Motor {} torque (kNm)", 1e3},   {"Motor {} torque", 1},
+                                                  {"motor_{}_torque_Nm", 1},        {"Leg {} effort [N.m]", 1},
+                                                  {"joint {} torque (N mm)", 1e-3}, {"Motor torque {} (kNm)", 1e3},
+                                                  {"actuator_{}_tau (mNm)", 1e-3}};
+  for (const auto& [form, unit] : forms)
+    EXPECT_NEAR(parseTorqueFile(headerOf(form) + plain_rows, "a.csv").torques[0](1), 2.25 * unit, 1e-12) << form;
+  EXPECT_THAT(refusal<CsvError>([&] { parseTorqueFile(headerOf("Motor {} force (kN)") + plain_rows, "a.csv"); }),
+              HasSubstr("motor 1 turns and has a torque"));
+  EXPECT_THROW(parseTorqueFile(headerOf("Motor {} speed") + plain_rows, "a.csv"), CsvError);
+}
+
+TEST(TorqueColumns, offersTheUnitOfTheColumn) {
+  const auto said = [](const std::string& form) {
+    return refusal<CsvError>([&] { parseTorqueFile(headerOf(form) + plain_rows, "a.csv"); });
+  };
+  EXPECT_THAT(said("A{} (kN m)"), HasSubstr("--map 'tau_1_kNm=A1 (kN m)'"));
+  EXPECT_THAT(said("A{}_mNm"), HasSubstr("--map tau_1_mNm=A1_mNm"));
+  EXPECT_THAT(said("A{}"), HasSubstr("--map tau_1_Nm=A1"));
+  EXPECT_THAT(said("A{} (kN)"), HasSubstr("--map tau_1_Nm=COLUMN")) << "a force is none of a motor that turns";
+  EXPECT_THAT(said("A{} (kg)"), HasSubstr("--map tau_1_Nm=COLUMN")) << "an unknown unit";
+}
+
 TEST(TorqueColumns, withoutAHeaderOnlyEqualStepsFromZeroAreTheTime) {
   const auto rows = [](const char* t2) {
     return std::string("0 1 2 3 4 5 6\n0.5 1 3 2 4 5 7\n") + t2 + " 1 2 3 4 5 6\n";

@@ -117,6 +117,11 @@ TEST(TorqueFile, instantsOfAGridAreExactAndThoseOfARoundedOneAreNot) {
 TEST(TorqueFile, knowsSinglePrecision) {
   EXPECT_TRUE(parsed("0,0.5,24593.5,3,0.10000000149011612,1,1\n").all_single);
   EXPECT_FALSE(parsed("0,0.5,24593.5,3,0.10000000000000001,1,1\n").all_single);
+  // Printed with nine digits, and with as few as tell a float from its neighbours.
+  EXPECT_TRUE(parsed("0,7.63292837,1.74311876,-16.4285564,0.145898029,9,3\n").all_single);
+  EXPECT_TRUE(parsed("0,7.6329284,1.7431188,-16.428556,0.14589803,-162.85715,3\n").all_single);
+  EXPECT_FALSE(parsed("0,7.63292857,1.74311876,-16.4285564,0.145898029,9,3\n").all_single);
+  EXPECT_FALSE(parsed("0,7.63293,1.74312,-16.4286,0.145898,9,3\n").all_single) << "any number with so few digits is";
 }
 
 }  // namespace

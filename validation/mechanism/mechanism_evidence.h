@@ -39,6 +39,7 @@ struct GivenEfforts {
   std::string read_as;
   std::vector<std::string> ignored;
   std::string derived_from;  ///< where the precision comes from, if not from printed digits
+  bool all_single = false;   ///< every effort is a single-precision number, as printed
 };
 
 /// Whose efforts are judged. Without `answers` and `given` it is this program's NOC.
@@ -48,6 +49,8 @@ struct MechanismSubject {
   /// The same between the samples; empty if it is the same.
   std::function<std::vector<MotorEfforts>(const std::vector<MechanismQuestion>&)> answers_between;
   bool gives_accelerations = false;  ///< the answers come from accelerations, whose rounding they have
+  /// What the answers say by themselves, so that no cause is sought; empty if nothing. Asked after all else.
+  std::function<std::string()> no_cause;
   std::shared_ptr<const GivenEfforts> given;
 
   /// Instants between the samples, and the most samples of a solver that is not asked thoroughly.
@@ -146,8 +149,9 @@ struct MechanismEvidence {
   double acceleration_level = 0;  ///< that of Simbody's accelerations under efforts, measured
   double largest = 0;             ///< effort along the motion, in the shown unit
   std::string unit;               ///< "N m", or "N" if all motors slide
-  std::string not_replayed, out_of_time;
-  Cover cover;  ///< by a file's rows; of other subjects only the widest gap
+  std::string not_replayed, out_of_time, no_cause;
+  bool all_single = false;  ///< as GivenEfforts::all_single, also of answers
+  Cover cover;              ///< by a file's rows; of other subjects only the widest gap
 
   /// The growth of rounding in an effort of motor k with pose and machine, in the shown unit.
   double shape(const MechanismSample& sample, Eigen::Index k) const;
