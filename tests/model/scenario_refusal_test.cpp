@@ -36,6 +36,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"empty", "\"small\"", "@\"\"", "name: '', expected a name that a folder can have, without '/'"},
         Refusal{"dot", "\"small\"", "@\".\"", "name: '.', expected a name that a folder can have, without '/'"},
         Refusal{"dots", "\"small\"", "@\"..\"", "name: '..', expected a name that a folder can have, without '/'"},
+        Refusal{"long", "\"small\"", "@\"" + std::string(256, 'a') + "\"",
+                "name: 256 bytes, expected a name that a folder can have, of at most 255"},
         Refusal{"slash", "\"small\"", "@\"a/b\"", "name: 'a/b', expected a name that a folder can have, without '/'"}),
     nameOf);
 
@@ -161,6 +163,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "acceptance.torque.pontwise: 'torque.pontwise' is not a check, did you mean 'torque.pointwise'?"},
         Refusal{"tolerance_misspelt", "[trajectory]", "[acceptance]\ntorqe.relative = @2\n[trajectory]",
                 "acceptance.torqe.relative: 'torqe.relative' is not a check, did you mean 'torque.relative'?"},
+        Refusal{"tolerance_number", "[trajectory]", "[acceptance]\ntorque = @1e-3\n[trajectory]",
+                "acceptance.torque: a float, expected a table { relative = X, absolute = Y }"},
+        Refusal{"tolerance_number_elsewhere", "[trajectory]", "[acceptance]\ntorqe = @1e-3\n[trajectory]",
+                "acceptance.torqe: 'torqe' is not a check"},
         Refusal{"tolerance_no_share", "[trajectory]", "[acceptance]\ntorque.relative = @\"1 of 9\"\n[trajectory]",
                 "acceptance.torque.relative: '1 of 9', expected a number or a percentage, such as 0.01 or \"1%\""}),
     nameOf);
