@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -87,7 +88,10 @@ TEST_F(MujocosReader, findsEachWrongNumber) {
 /// MuJoCo passes over what others say of a rotor in a URDF, and never sees the file that changes a joint's type.
 TEST_F(MujocosReader, isNotHeldToWhatItDoesNotRead) {
   MechanismParameters machine = exchange::readModel(fileOf("fourbar.urdf"));
-  MechanismJoint& joint = machine.joints.front();
+  MechanismJoint& joint = *std::find_if(machine.joints.begin(), machine.joints.end(), [&](const MechanismJoint& each) {
+    const bool is_motor = std::count(machine.motors.begin(), machine.motors.end(), each.name) > 0;
+    return each.kind == JointKind::revolute && !each.closure && !is_motor;
+  });
   joint.rotor_inertia = 0.1;
   ReadingChoices choices;
   const ReadingDifference held = readByMujoco(fileOf("fourbar.urdf"), machine, choices);

@@ -28,6 +28,8 @@ TEST_P(RefusedScenario, saysWhereWhatAndWhatWasExpected) {
 
 TEST(RefusedScenario, isAcceptedWithoutTheChange) { EXPECT_NO_THROW(parseScenario(good_scenario, "a.toml")); }
 
+const std::string long_name = "@\"" + std::string(256, 'a') + "\"";
+
 INSTANTIATE_TEST_SUITE_P(
     Name, RefusedScenario,
     testing::Values(
@@ -36,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"empty", "\"small\"", "@\"\"", "name: '', expected a name that a folder can have, without '/'"},
         Refusal{"dot", "\"small\"", "@\".\"", "name: '.', expected a name that a folder can have, without '/'"},
         Refusal{"dots", "\"small\"", "@\"..\"", "name: '..', expected a name that a folder can have, without '/'"},
-        Refusal{"long", "\"small\"", "@\"" + std::string(256, 'a') + "\"",
+        Refusal{"long", "\"small\"", long_name.c_str(),
                 "name: 256 bytes, expected a name that a folder can have, of at most 255"},
         Refusal{"slash", "\"small\"", "@\"a/b\"", "name: 'a/b', expected a name that a folder can have, without '/'"}),
     nameOf);
