@@ -115,7 +115,7 @@ TEST_P(Simulators, accelerationsThatDoNotFollowTheEffortsHaveNoOtherCause) {
             0U);
   EXPECT_THAT(causeOf([&](const auto&, const auto&) { return constant; }), testing::HasSubstr("6 for a_z"));
   EXPECT_THAT(causeOf([&](const auto& state, const auto&) { return right(state, never); }),
-              testing::HasSubstr("the same accelerations whatever the efforts are: alpha_x"));
+              testing::ContainsRegex("^the same accelerations whatever the (efforts|torques|forces) are: alpha_x"));
   EXPECT_EQ(causeOf([&](const auto& state, const auto& efforts) {
               Vector6d out = right(state, efforts);
               out(5) = 0.5;
