@@ -9,6 +9,7 @@
 #include <string_view>
 #include <unordered_set>
 
+#include "base/csv_digits.h"
 #include "base/text.h"
 #include "base/text_source.h"
 #include "base/utf8.h"
@@ -46,21 +47,6 @@ std::vector<std::size_t> readHeader(const std::vector<std::string>& cells, const
   table.columns.resize(wanted.size());
   table.last_places.resize(wanted.size());
   return wanted;
-}
-
-/// Returns the power of ten of the last digit of a finite number. Exponents beyond a double's range are clipped.
-int lastPlace(std::string_view cell) {
-  const auto e = cell.find_first_of("eE");
-  const std::string_view mantissa = cell.substr(0, e);
-  const auto point = mantissa.find('.');
-  const int decimals = point == std::string_view::npos ? 0 : static_cast<int>(mantissa.size() - point - 1);
-  int exponent = 0;
-  if (e != std::string_view::npos) {
-    std::string_view digits = cell.substr(e + 1);
-    if (digits[0] == '+') digits.remove_prefix(1);
-    if (std::from_chars(digits.data(), digits.data() + digits.size(), exponent).ec != std::errc()) exponent = 0;
-  }
-  return std::clamp(exponent, -400, 400) - decimals;
 }
 
 /// Reads by std::from_chars, because it ignores the locale. It refuses a leading plus, which is harmless and therefore
@@ -218,6 +204,20 @@ void csvPieces(const std::vector<std::string>& names, const std::vector<std::vec
     piece.clear();
   }
   if (!piece.empty()) take(piece);
+}
+
+int lastPlace(std::string_view cell) {
+  const auto e = cell.find_first_of("eE");
+  const std::string_view mantissa = cell.substr(0, e);
+  const auto point = mantissa.find('.');
+  const int decimals = point == std::string_view::npos ? 0 : static_cast<int>(mantissa.size() - point - 1);
+  int exponent = 0;
+  if (e != std::string_view::npos) {
+    std::string_view digits = cell.substr(e + 1);
+    if (digits[0] == '+') digits.remove_prefix(1);
+    if (std::from_chars(digits.data(), digits.data() + digits.size(), exponent).ec != std::errc()) exponent = 0;
+  }
+  return std::clamp(exponent, -400, 400) - decimals;
 }
 
 std::string csvText(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns, NanAs nan) {

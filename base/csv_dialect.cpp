@@ -62,7 +62,7 @@ struct Head {
   int header = 0;  ///< 1-based
   std::string_view names;
   std::vector<std::string_view> rows;
-  bool comments = false;
+  std::string comments;
 };
 
 Head headOf(const std::vector<std::string_view>& lines) {
@@ -70,7 +70,8 @@ Head headOf(const std::vector<std::string_view>& lines) {
   int commented = 0;
   for (std::size_t i = 0; i < lines.size() && head.rows.size() < rows_looked_at; ++i) {
     if (isComment(lines[i])) {
-      head.comments = true;
+      const char sign = trimmedCell(lines[i]).front();
+      if (head.comments.find(sign) == std::string::npos) head.comments += sign;
       if (head.rows.empty() && head.header == 0) commented = static_cast<int>(i) + 1;
     } else if (trimmedCell(lines[i]).empty()) {
       continue;
@@ -146,7 +147,7 @@ std::string CsvDialect::words() const {
                                        : fmt::format("'{}' between", separator);
   if (decimal_comma) out += ", decimal commas";
   if (header == 0) return out + ", no header";
-  if (comments) out += ", lines after # passed over";
+  if (!comments.empty()) out += fmt::format(", lines after {} passed over", comments.size() > 1 ? "# or %" : comments);
   return header == 1 ? out : out + fmt::format(", the header in line {}", header);
 }
 
@@ -188,7 +189,7 @@ std::vector<std::string_view> splitLines(std::string_view text, std::size_t most
 }
 
 bool isPassedOver(std::string_view line, const CsvDialect& dialect) {
-  return dialect.comments && (isComment(line) || trimmedCell(line).empty());
+  return !dialect.comments.empty() && (isComment(line) || trimmedCell(line).empty());
 }
 
 CsvDialect guessDialect(const std::string& text, const std::filesystem::path& file) {
@@ -200,7 +201,7 @@ CsvDialect guessDialect(const std::string& text, const std::filesystem::path& fi
   if (head.header == 0 && head.rows.empty()) return out;
   out.header = head.header;
   out.comments = head.comments;
-  const bool by_header = head.rows.empty() || (head.header > 0 && !head.comments);
+  const bool by_header = head.rows.empty() || (head.header > 0 && head.comments.empty());
   out.separator = by_header ? separatorOf(head.names) : separatorOfNumbers(head.rows.front());
   out.decimal_comma = out.separator != ',' && hasDecimalCommas(head, out.separator, file);
   out.header_cells = namesOf(head, out.separator);

@@ -12,11 +12,11 @@ namespace ursula {
 struct CsvDialect {
   char separator = ',';                        ///< ' ' means runs of blanks
   bool decimal_comma = false;                  ///< "0,5" is a half
-  bool comments = false;                       ///< lines that begin with # or %, and blank ones, are skipped
+  std::string comments = {};                   ///< "#", "%" or both: met at lines that are skipped, as blank ones are
   int header = 1;                              ///< its 1-based line; 0 if there is none
   std::vector<std::string> header_cells = {};  ///< cells of that line; "1", "2", … if there is none
 
-  bool isOwn() const { return separator == ',' && !comments && header == 1; }
+  bool isOwn() const { return separator == ',' && comments.empty() && header == 1; }
   /// Returns "';' between, decimal commas, lines after # passed over, the header in line 3"; empty for this program's
   /// own form.
   std::string words() const;

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/csv.h"
 
 namespace ursula {
+
+/// Returns the power of ten of the last digit of a printed, finite number; exponents beyond ±400 are clipped.
+int lastPlace(std::string_view cell);
 
 /// Returns half a unit of the last digit that most numbers of a column have; 0 if there is no such column.
 inline double halfDigit(const CsvTable& table, const std::string& name) {

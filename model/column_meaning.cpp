@@ -51,7 +51,7 @@ std::optional<Column> meaningOfColumn(const std::string& name) {
   static const std::regex vector("([pqfm])_?([wxyz])" + tail);
   static const std::regex named("(surge|sway|heave|roll|pitch|yaw)" + tail, std::regex::icase);
   std::smatch found;
-  if (const auto torque = meaningOf(name))
+  if (const auto torque = meaningOf(name); torque && torque->motor <= motor_count)
     return Column{torque->motor < 0 ? ColumnQuantity::time : ColumnQuantity::effort, torque->motor,
                   std::pow(10.0, torque->power) * torque->multiplier};
   const auto digit = [&](std::size_t group) { return found[group].str()[0] - '0'; };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "model/torque_names.h"
@@ -20,5 +21,9 @@ struct EffortUnit {
 
 /// All units that a column's name may have.
 const std::vector<EffortUnit>& effortUnits();
+
+/// The unit at the end of a column's name, as targets have it: "kN" of "F1 (kN)", "ms" of "Clock [ms]". That of the
+/// contract if it has none; empty if it does not fit motor k, 0-based, −1 for the time.
+std::string unitOfColumn(const std::string& name, const EffortAxes& motors, int k);
 
 }  // namespace ursula

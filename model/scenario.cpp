@@ -24,6 +24,10 @@ std::string readName(const TomlSection& document) {
   document.require("name", name);
   const bool plain = std::none_of(name.begin(), name.end(),
                                   [](unsigned char c) { return c < ' ' || c == 0x7f || c == '/' || c == '\\'; });
+  constexpr std::size_t most = 255;  // bytes of a name in Linux
+  if (name.size() > most)
+    document.fail("name",
+                  fmt::format("{} bytes, expected a name that a folder can have, of at most {}", name.size(), most));
   if (!plain || name.empty() || name == "." || name == "..")
     document.fail("name", fmt::format("'{}', expected a name that a folder can have, without '/'", shown(name)));
   return name;
@@ -68,6 +72,12 @@ void readAcceptance(const TomlSection& table, const std::string& prefix, Scenari
     }
     if (node.is_table() && node.as_table()->empty())
       table.fail(name, "an empty table, expected a limit, or for torque relative or absolute");
+    if (prefix.empty() && name == "torque" && !node.is_table())
+      table.fail(name, fmt::format("{}, expected a table {{ relative = X, absolute = Y }}",
+                                   node.is_floating_point() ? "a float"
+                                   : node.is_integer()      ? "an integer"
+                                   : node.is_string()       ? "a string"
+                                                            : "no table"));
     if (node.is_table()) {
       readAcceptance(*table.section(name), prefix + name + ".", scenario);
       continue;

@@ -49,14 +49,18 @@ const std::vector<EffortUnit>& effortUnits() {
 
 namespace {
 
+std::string lowered(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
 /// Interprets "Nm", "kN·m", "N mm", "mN.m", "kN", "kgf cm"; nullopt for mega, which in lower case looks like milli.
 std::optional<ColumnMeaning> effortOf(int motor, std::string unit) {
   for (const char* between : {" ", ".", "*", "·", "_", "-"})
     for (auto at = unit.find(between); at != std::string::npos; at = unit.find(between))
       unit.erase(at, std::string(between).size());
   if (unit.empty()) return ColumnMeaning{motor};
-  std::string small = unit;
-  std::transform(small.begin(), small.end(), small.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string small = lowered(unit);
   const bool of_newton = small.find('n') != std::string::npos && small.find("in") == std::string::npos;
   for (const EffortUnit& each : effortUnits())
     for (const char* spelling : each.spellings)
@@ -65,41 +69,75 @@ std::optional<ColumnMeaning> effortOf(int motor, std::string unit) {
 }
 
 /// "force 2" is a force even without a unit; people use "torque 2" less strictly.
-EffortKind kindOfWord(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-  return name.find("force") != std::string::npos ? EffortKind::force : EffortKind::untold;
+EffortKind kindOfWord(const std::string& name) {
+  return lowered(name).find("force") != std::string::npos ? EffortKind::force : EffortKind::untold;
+}
+
+/// Patterns of parts of a column's name: a unit with what leads to it and ends it, and the word for an effort.
+const char* const unit_pattern =
+    R"((?:[km]?N(?:[ .*·_\-]*[cm]?m)?|(?:kgf?|lbf?|ozf?)[ .*·_\-]*(?:c?m|in|ft)|(?:in|ft)[ .*·_\-]*(?:lbf?|ozf?)|kgf|lbf|ozf))";
+const char *const word_pattern = "(?:tau|τ|torque|trq|force|effort)", *const gap_pattern = R"([ _.\-]*)";
+
+std::string orUnit(const std::string& units) { return R"((?:[ _]*[\[(/_ ,][ ]*()" + units + R"()[ ]*[\])]?)?)"; }
+
+std::regex patternOf(const std::string& text) { return std::regex(text, std::regex::icase); }
+
+std::optional<ColumnMeaning> meaningOfEffort(int motor, const std::string& unit, const std::string& words) {
+  std::optional<ColumnMeaning> meaning = effortOf(motor, unit);
+  if (meaning && meaning->kind == EffortKind::untold) meaning->kind = kindOfWord(words);
+  return meaning;
 }
 
 }  // namespace
 
 std::optional<ColumnMeaning> meaningOf(const std::string& name) {
-  static const std::string open = R"((?:[ _]*[\[(/_ ,][ ]*()", close = R"()[ ]*[\])]?)?)";
-  static const std::string effort_unit =
-      R"((?:[km]?N(?:[ .*·_\-]*[cm]?m)?|(?:kgf?|lbf?|ozf?)[ .*·_\-]*(?:c?m|in|ft)|(?:in|ft)[ .*·_\-]*(?:lbf?|ozf?)|kgf|lbf|ozf))";
-  static const std::regex time("(?:t|time)" + open + "s|sec|seconds?|ms|us|µs|ns" + close, std::regex::icase);
-  static const std::regex effort(
-      R"((?:tau|τ|torque|trq|force|effort|(?:motor|actuator|joint|leg)[ _]?(?:torque|force|effort))[ _.\-]*[\[({]?([0-6])[\])}]?)" +
-          open + effort_unit + close,
-      std::regex::icase);
+  static const std::string owner = "(?:motor|actuator|joint|leg)", gap = gap_pattern, word = word_pattern;
+  static const std::string number = R"([\[({]?([0-9]{1,3})[\])}]?)", unit = orUnit(unit_pattern);
+  static const std::regex time = patternOf("(?:t|time)" + orUnit("s|sec|seconds?|ms|us|µs|ns"));
+  static const std::regex effort = patternOf("(?:" + owner + gap + ")?" + word + gap + number + unit);
+  static const std::regex by_owner = patternOf(owner + gap + number + gap + word + unit);
   std::smatch found;
-  if (std::regex_match(name, found, time)) {
-    std::string unit = found[1];
-    std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
-    return ColumnMeaning{-1, EffortKind::untold, timePower(unit).value_or(0)};
-  }
-  if (!std::regex_match(name, found, effort)) return std::nullopt;
-  std::optional<ColumnMeaning> meaning = effortOf(std::stoi(found[1]), found[2]);
-  if (meaning && meaning->kind == EffortKind::untold) meaning->kind = kindOfWord(name);
-  return meaning;
+  if (std::regex_match(name, found, time))
+    return ColumnMeaning{-1, EffortKind::untold, timePower(lowered(found[1])).value_or(0)};
+  if (!std::regex_match(name, found, effort) && !std::regex_match(name, found, by_owner)) return std::nullopt;
+  return meaningOfEffort(std::stoi(found[1]), found[2], name);
 }
 
 std::optional<ColumnMeaning> meaningByJoint(const std::string& name, const EffortAxes& motors) {
+  static const std::string gap = gap_pattern, word = word_pattern;
+  static const std::regex leading = patternOf(word + gap), unit = patternOf(orUnit(unit_pattern)),
+                          words = patternOf(gap + word + orUnit(unit_pattern));
   std::optional<ColumnMeaning> out;
-  for (int k = 0; k < motors.count(); ++k)
-    for (const std::string& head : {"tau_" + motors[k].joint + "_", motors[k].joint + "_"}) {
-      if (motors[k].joint.empty() || name.compare(0, head.size(), head) != 0 || name.size() == head.size()) continue;
-      if (const auto found = effortOf(k, name.substr(head.size()))) out = found;
+  for (int k = 0; k < motors.count(); ++k) {
+    const std::string& joint = motors[k].joint;
+    if (joint.empty()) continue;
+    for (std::size_t at = name.find(joint); at != std::string::npos; at = name.find(joint, at + 1)) {
+      const std::string before = name.substr(0, at), after = name.substr(at + joint.size());
+      const bool is_led = std::regex_match(before, leading);
+      if (!is_led && !before.empty()) continue;
+      std::smatch found;
+      const bool is_unit = std::regex_match(after, found, unit) && (is_led || found[1].matched);
+      if (!is_unit && (is_led || !std::regex_match(after, found, words))) continue;
+      if (const auto meaning = meaningOfEffort(k, found[1], before + (is_unit ? "" : after))) out = meaning;
     }
+  }
+  return out;
+}
+
+std::string unitOfColumn(const std::string& name, const EffortAxes& motors, int k) {
+  static const std::string open = R"(.*[\[(/_ ,] *)", close = R"( *[\])]?)";
+  static const std::regex time = patternOf(open + "(ms|us|µs|ns)" + close),
+                          effort = patternOf(open + "(" + unit_pattern + ")" + close),
+                          unknown = patternOf(open + "(?:kg|g|lbs?|oz)" + close + R"(|.*[\[(].*[\])])");
+  std::smatch found;
+  if (k < 0) return std::regex_match(name, found, time) ? found[1] == "µs" ? "us" : lowered(found[1]) : "s";
+  if (!std::regex_match(name, found, effort))
+    return std::regex_match(name, unknown) ? "" : motors[k].slides ? "N" : "Nm";
+  const auto meaning = effortOf(k, found[1]);
+  if (!meaning || !meaning->fits(motors, k)) return "";
+  std::string out;
+  for (const char c : found[1].str())
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0) out += c;
   return out;
 }
 

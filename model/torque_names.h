@@ -25,11 +25,11 @@ struct ColumnMeaning {
   }
 };
 
-/// Interprets `tau1`, `Tau 1 [Nm]`, `torque_1 (kN m)`, `tau_2_kgfcm`, `force 2 [lbf]`, `t`, `Time [ms]`; nullopt for an
-/// ambiguous name.
+/// Interprets `tau1`, `Tau 1 [Nm]`, `torque_1 (kN m)`, `Motor 1 torque (kNm)`, `tau_2_kgfcm`, `force 2 [lbf]`, `t`,
+/// `Time [ms]`; nullopt for an ambiguous name.
 std::optional<ColumnMeaning> meaningOf(const std::string& name);
 
-/// Interprets `tau_JOINT_kNm` or `JOINT_Nm`, whose motor is then numbered from 0; nullopt for any other name.
+/// Interprets `tau_JOINT_kNm`, `JOINT_Nm` or `JOINT torque (kN m)`, numbered from 0; nullopt for any other name.
 std::optional<ColumnMeaning> meaningByJoint(const std::string& name, const EffortAxes& motors);
 
 /// Interprets a name of the contract, possibly with another unit: `tau_1_kNm`. Its motor is numbered from 0.

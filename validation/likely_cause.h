@@ -10,9 +10,10 @@ namespace ursula {
 
 /// A solver that gave wrong efforts.
 struct WrongSolver {
-  const Subject& in_si;      ///< answers questions in SI, with positions relative to the natural origin
-  const Subject& natural;    ///< the same in the evidence's units, with all its answers
-  const Evidence& evidence;  ///< of the solver; if time ran out, it is asked no further
+  const Subject& in_si;       ///< answers questions in SI, with positions relative to the natural origin
+  const Subject& natural;     ///< the same in the evidence's units, with all its answers
+  const Evidence& evidence;   ///< of the solver; if time ran out, it is asked no further
+  std::string no_cause = {};  ///< what its answers say by themselves: then no cause is sought, and nothing is asked
 };
 
 /// Adds the likely cause of wrong efforts to the result of a failure. `scenario` and `efforts` are in SI, with

@@ -108,7 +108,7 @@ void explainSolver(const Scenario& scenario, const Evidence& evidence, const Sub
   const Subject solver = inSi(subject, evidence.natural);
   const TorqueFile file =
       within(torqueFileOf(answers, scenario.manipulator->motors()), scenario.trajectory->duration());
-  const WrongSolver wrong{solver, subject, evidence};
+  const WrongSolver wrong{solver, subject, evidence, ""};
   partLikelyCause()(relocated(scenario, evidence.natural.origin), file, &wrong, result);
 }
 
@@ -176,7 +176,6 @@ std::shared_ptr<const Reference> referenceOf(const Scenario& scenario, const Val
 /// Returns a report even if time ran out before any experiment.
 ValidationResult nothingReached(const Scenario& scenario, const Subject& subject, const OutOfTime& over) {
   ValidationResult result = emptyResult(scenario, subject);
-  result.timeseries = validationSeries(*scenario.manipulator, {}, {});
   SubjectHas has(subject);
   has.out_of_time = over.what();
   conclude(scenario, has, 0, result);

@@ -71,6 +71,8 @@ struct ExternalOptions {
   /// What made the torques, to be asked for its terms apart; works on the scenario as given. Null if it cannot be
   /// asked.
   const Subject* solver = nullptr;
+  /// What the answers say by themselves, so that no cause is sought; empty if nothing. Asked after all else.
+  std::function<std::string()> no_cause = nullptr;
 };
 
 /// Validates external torques: pointwise at their own instants, and by replay on a spline through them. The failed

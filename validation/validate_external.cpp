@@ -77,9 +77,10 @@ void addFacts(const Evidence& evidence, const std::optional<ErrorBudget>& budget
   if (budget) addBudget(*budget, result, evidence.units(), ErrorSource::between_samples);
 }
 
-/// Names the cause; `solver` may be null.
+/// Names the cause.
 void addCause(const Scenario& scenario, const FrameChange& natural, const TorqueFile& file, const Evidence& evidence,
-              const Subject* solver, ValidationResult& result) {
+              const ExternalOptions& options, ValidationResult& result) {
+  const Subject* solver = options.solver;
   const Scenario near_origin = relocated(scenario, natural.origin);
   if (solver == nullptr) return partLikelyCause()(near_origin, file, nullptr, result);
   Subject in_si = *solver;
@@ -88,7 +89,7 @@ void addCause(const Scenario& scenario, const FrameChange& natural, const Torque
     return solver->torques(motion);
   };
   const Subject in_natural = transformed(*solver, natural);
-  const WrongSolver wrong{in_si, in_natural, evidence};
+  const WrongSolver wrong{in_si, in_natural, evidence, options.no_cause ? options.no_cause() : ""};
   partLikelyCause()(near_origin, file, &wrong, result);
 }
 
@@ -126,8 +127,12 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
                               torques.is_read ? CalledBy::torques : CalledBy::program, torques.map};
   ValidationResult result = emptyResult(scenario, options.about.value_or(of_file));
   result.checks = judgeAll(evidence);
-  if (options.more && out_of_time.empty())
-    for (Check& check : options.more()) result.checks.push_back(std::move(check));
+  try {
+    if (options.more && out_of_time.empty())
+      for (Check& check : options.more()) result.checks.push_back(std::move(check));
+  } catch (const OutOfTime& over) {
+    evidence.has.out_of_time = over.what();
+  }
   std::optional<ErrorBudget> budget;
   if (torques.derived_from.empty())
     budget = attribute(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan,
@@ -141,7 +146,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   addFileFindings(file, result);
   if (replay.enough_rows > 0) result.needed = NeededRows{replay.enough_rows, file.rows()};
   if (result.verdict == Verdict::fail && !onlyOddEngineFails(result)) {
-    if (partLikelyCause() != nullptr) addCause(scenario, natural, file, evidence, options.solver, result);
+    if (partLikelyCause() != nullptr) addCause(scenario, natural, file, evidence, options, result);
     result.size = failureSize(in_natural, evidence.samples, scenario, natural, result);
   }
   addEffortWords(result);

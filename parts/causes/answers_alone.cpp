@@ -219,6 +219,7 @@ std::vector<int> wrongMotors(const ExternalTorques& torques) {
 }
 
 AnswersAlone readAlone(const MotorNames& motors, const ExternalTorques& torques, const AskedApart& asked) {
+  if (!asked.no_cause.empty()) return {false, Explanation{asked.no_cause}};
   const std::optional<Explanation> digits = fewDigits(motors, torques, asked);
   AnswersAlone out{digits.has_value(), sameAnswers(motors, torques, asked), changedWhenAskedAgain(torques, asked)};
   if (!out.explanation) out.explanation = digits ? digits : cutOff(motors, torques, asked);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "model/scenario.h"
@@ -20,6 +21,7 @@ struct AskedApart {
   /// Its answers when instants of the motion are asked again one by one: N·m or N.
   std::vector<double> again_t = {};
   std::vector<Vector6d> again = {};
+  std::string no_cause = {};  ///< WrongSolver::no_cause
 };
 
 /// Asks separate questions at poses of `motions` and compares each part of the efforts with the NOC's. The parts are

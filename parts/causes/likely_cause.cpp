@@ -17,7 +17,8 @@ void addLikelyCause(const Scenario& scenario, const TorqueFile& efforts, const W
   std::vector<Motion<double>> motions;
   for (const double t : efforts.t) motions.push_back(scenario.trajectory->at(t));
   AskedApart asked;
-  if (evidence.has.out_of_time.empty()) asked = askedApart(solver->in_si, scenario, motions);
+  asked.no_cause = solver->no_cause;
+  if (evidence.has.out_of_time.empty() && asked.no_cause.empty()) asked = askedApart(solver->in_si, scenario, motions);
   Diagnosis found = diagnose(scenario, torques, asked);
   const Places places = placesOf(*evidence.scenario, evidence.samples, solver->natural.answers());
   if (!places.areAlike()) sayPlaces(places, *scenario.manipulator, evidence.natural, found);

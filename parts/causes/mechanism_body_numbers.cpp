@@ -186,11 +186,13 @@ void addGravity(const EffortResidual& data, std::vector<Tried>& out) {
     };
     out.push_back(tried);
   };
-  if (right.norm() > 0) add("mechanism.gravity", right.normalized(), right.norm());
-  for (int k = 0; k < 3; ++k)
-    if (std::abs(right(k)) < 0.999999 * right.norm() || right.norm() == 0)
-      add(fmt::format("mechanism.gravity.{}", k), Vector3d::Unit(k), right(k));
-  add("mechanism.gravity", Matrix3d::Identity(), 0);
+  Eigen::Index down = 0;
+  const bool is_along_axis = right.norm() > 0 && right.cwiseAbs().maxCoeff(&down) > 0.999999 * right.norm();
+  if (is_along_axis) add(fmt::format("gravity.{}", down), Vector3d::Unit(down), right(down));
+  if (right.norm() > 0 && !is_along_axis) add("gravity", right.normalized(), right.norm());
+  for (Eigen::Index k = 0; k < 3; ++k)
+    if (!is_along_axis || k != down) add(fmt::format("gravity.{}", k), Vector3d::Unit(k), right(k));
+  add("gravity", Matrix3d::Identity(), 0);
 }
 
 }  // namespace

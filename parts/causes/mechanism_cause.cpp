@@ -57,12 +57,11 @@ bool isAtRest(const EffortResidual& data) {
 }
 
 /// Whether every effort has few digits, and the right one is as near as these allow.
-bool nameDigits(const EffortResidual& data, ValidationResult& result) {
+bool nameDigits(const EffortResidual& data, bool is_single, ValidationResult& result) {
   std::vector<Answer> answers;
-  bool is_single = true, slides = true;
+  bool slides = true;
   for (Eigen::Index i = 0; i < data.found.size(); ++i) {
     const double found = data.found(i);
-    is_single = is_single && found == static_cast<double>(static_cast<float>(found));
     answers.push_back({found, data.noc(i), data.limit(i), data.limit(i)});
   }
   for (std::size_t k = 0; k < data.mechanism->motorCount(); ++k) slides = slides && data.mechanism->motor(k).slides();
@@ -200,7 +199,9 @@ void addMechanismCause(const MechanismScenario&, const MechanismEvidence& eviden
   const EffortResidual data = residualOf(evidence);
   result.cause_words.off = deviationIn(data);
   if (result.cause_words.off.empty() || !data.found.allFinite()) return;
-  if (!nameDigits(data, result)) {
+  if (!evidence.no_cause.empty()) {
+    result.cause_words.cause = evidence.no_cause;
+  } else if (!nameDigits(data, evidence.all_single, result)) {
     std::vector<Fitted> fitted;
     if (data.instants.size() >= least_instants && !isAtRest(data)) fitted = fittedCauses(data);
     const auto least = std::min_element(fitted.begin(), fitted.end(),

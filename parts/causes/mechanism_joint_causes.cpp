@@ -33,7 +33,7 @@ const JointTerm joint_terms[] = {
     {"rotor_inertia", "", "armature",
      [](const MechanismJoint& j, const Coordinate& c) { return j.rotor_inertia * c.acceleration; }},
     {"springs", "", "stiffness", springOf},
-    {"springs", "their rest positions", "spring_reference",
+    {"springs", "their rest positions", "springref",
      [](const MechanismJoint& j, const Coordinate&) { return hasSpring(j) ? -j.stiffness * j.spring_reference : 0; }},
 };
 
@@ -189,7 +189,7 @@ const JointNumber joint_numbers[] = {
      [](const MechanismJoint&, const Coordinate& c) { return c.acceleration; }},
     {"stiffness", "N m/rad", "N/m", &MechanismJoint::stiffness,
      [](const MechanismJoint& j, const Coordinate& c) { return hasSpring(j) ? c.value - j.spring_reference : 0; }},
-    {"spring_reference", "rad", "m", &MechanismJoint::spring_reference,
+    {"springref", "rad", "m", &MechanismJoint::spring_reference,
      [](const MechanismJoint& j, const Coordinate&) { return hasSpring(j) ? -j.stiffness : 0; }},
 };
 

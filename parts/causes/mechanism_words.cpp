@@ -55,7 +55,7 @@ std::string numberWords(const std::string& key) {
   if (key.rfind("center_of_mass.", 0) == 0) return fmt::format("entry {} of the mass centre", "xyz"[key.back() - '0']);
   if (key == "inertia") return "the tensor of inertia";
   if (key.rfind("inertia.", 0) == 0) return "the inertia " + key.substr(8);
-  if (key == "spring_reference") return "the spring's rest position";
+  if (key == "springref") return "the spring's rest position";
   if (key == "friction") return "the Coulomb friction";
   for (const char* vector : {"position", "axis"})
     if (key.rfind(vector + std::string("."), 0) == 0)
@@ -77,7 +77,7 @@ std::string numbersWords(const NamedCause& cause) {
 std::string parameterWords(const NamedCause& cause) {
   const std::string wrong = cause.found ? numbersWords(cause) : " is wrong";
   if (cause.term == "gravity") {
-    const bool one = cause.parameter.size() > std::string("mechanism.gravity").size();
+    const bool one = cause.parameter.size() > std::string("gravity").size();
     return (one ? fmt::format("entry {} of gravity", "xyz"[cause.parameter.back() - '0']) : "gravity") + wrong;
   }
   if (cause.term == "friction")

@@ -1,6 +1,7 @@
 // MuJoCo's own reader as a second reader of model files.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>
@@ -24,6 +25,10 @@ ReadingChoices choicesOf(const MechanismScenario& scenario, const std::string& m
   out.of_file_pose = std::none_of(said.begin(), said.end(), [](const std::string& each) {
     return has(each, "The initial pose is that of the keyframe");
   });
+  out.is_urdf = has(model, "<robot");
+  for (const std::string& each : said)
+    if (const auto at = each.find(": This joint is another one than in the URDF"); at != std::string::npos)
+      out.retyped.push_back(each.substr(0, at));
   out.leaves_out = has(scenario.text, "leave_out");
   const std::string of_mechanism = scenario.text.substr(0, scenario.text.find("[trajectory]"));
   out.has_file_gravity = !has(of_mechanism, "gravity");
@@ -50,8 +55,11 @@ Check addMechanismReading(const MechanismScenario& scenario) {
   return judged(check, found.value, found.limit, "1",
                 found.limit > 1e-12 ? "inertias that MuJoCo diagonalises keep half of their digits"
                                     : "some thousand roundings along chains of frames",
-                fmt::format("{} bodies, {} joints and {} closures by name{}{}", found.bodies, found.joints,
+                fmt::format("{} bodies, {} joints and {} closures by name{}{}{}", found.bodies, found.joints,
                             found.closures, found.where.empty() ? "" : "; largest: " + found.where,
+                            found.left_out.empty() ? ""
+                                                   : fmt::format("; left out, as MuJoCo does not read it: {}",
+                                                                 fmt::join(found.left_out, ", ")),
                             choices.of_file_pose ? "" : "; frames not, because the pose is a keyframe's"));
 }
 

@@ -272,7 +272,8 @@ void addDirect(CLI::App& app, std::function<int()>& run) {
                    "Angles of six URS or six RUS legs, rad, separated by commas: phi_1,...,phi_6");
   verb->add_option("--d", options->d, "Lengths or strokes of six UPS or PUS legs, m, separated by commas: d_1,...,d_6");
   verb->add_option("--coordinates", options->coordinates,
-                   "Driven coordinates of legs of any kinds, rad or m, in the motors' order, separated by commas");
+                   "Driven coordinates, rad or m, in the motors' order, separated by commas: of six legs that are UPS\n"
+                   "driven by d, RUS driven by phi or PUS driven by d, in any mix; or of six URS legs driven by phi");
   addMapOption(*verb, options->map);
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
   verb->footer(

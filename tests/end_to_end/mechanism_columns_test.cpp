@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "base/csv.h"
 #include "tests/end_to_end/program.h"
@@ -60,6 +61,55 @@ TEST_F(MechanismColumns, areNamedByTheMap) {
   EXPECT_GT(difference(), 0.01);
   ursula_.passing("check own.toml" + motion_);
   ursula_.passing("direct own.toml own.csv --out direct.csv" + motion_);
+}
+
+TEST_F(MechanismColumns, ofEffortsAreKnownByTheirWords) {
+  const CsvTable motion = read("motion.csv");
+  const auto judge = [&](const std::vector<std::string>& names) {
+    ursula_.write("words.csv", csvText(names, {motion.at("t_s"), motion.at("tau_1_Nm"), motion.at("tau_2_Nm"),
+                                               motion.at("tau_3_Nm")}));
+    return ursula_("validate delta.toml --quiet --out results --rtol 1e-6 --torques words.csv");
+  };
+  EXPECT_EQ(judge({"time (s)", "Motor 1 torque (Nm)", "Motor 2 torque (N.m)", "Motor 3 torque"}).exit_code, 0);
+  EXPECT_EQ(judge({"time", "arm0_motor torque (Nm)", "torque arm1_motor", "tau_arm2_motor_Nm"}).exit_code, 0);
+  EXPECT_EQ(judge({"time", "Motor 1 torque (kNm)", "Motor 2 torque", "Motor 3 torque"}).exit_code, 1);
+  const UrsulaRun force = judge({"time", "Motor 1 force (N)", "Motor 2 torque", "Motor 3 torque"});
+  EXPECT_EQ(force.exit_code, 2);
+  EXPECT_THAT(force.err, HasSubstr("motor 1 turns and has a torque"));
+}
+
+/// Efforts as a program of single precision prints them.
+TEST_F(MechanismColumns, ofSinglePrecisionAreNamed) {
+  const CsvTable motion = read("motion.csv");
+  const auto causeOf = [&](bool is_single) {
+    std::string text = "t_s,tau_1_Nm,tau_2_Nm,tau_3_Nm\n";
+    for (std::size_t i = 0; i < motion.rows(); ++i) {
+      text += std::to_string(motion.at("t_s")[i]);
+      for (const char* name : {"tau_1_Nm", "tau_2_Nm", "tau_3_Nm"}) {
+        const double effort = motion.at(name)[i] * (is_single ? 1 : 1 + 1e-7 * std::sin(static_cast<double>(i)));
+        char printed[40];
+        std::snprintf(printed, sizeof printed, ",%.9g", is_single ? static_cast<float>(effort) : effort);
+        text += printed;
+      }
+      text += "\n";
+    }
+    ursula_.write("single.csv", text);
+    ursula_("validate delta.toml --quiet --out results --torques single.csv");
+    return TemporaryFolder::read(ursula_.folder() / "results/summary.json");
+  };
+  EXPECT_THAT(causeOf(true), HasSubstr("\"kind\": \"digits\""));
+  EXPECT_THAT(causeOf(false), testing::Not(HasSubstr("\"kind\": \"digits\"")));
+}
+
+TEST_F(MechanismColumns, aSimulatorThatDoesNotListenHasNoOtherCause) {
+  const auto judge = [&](const std::string& command, const std::string& more = "") {
+    return ursula_("validate delta.toml --out results" + more + " --simulator '" + command + "'");
+  };
+  const UrsulaRun constant = judge("while read l; do echo 1,2,3; done");
+  EXPECT_EQ(constant.exit_code, 1) << constant.err;
+  EXPECT_THAT(constant.out, HasSubstr("the same answer whatever is asked: 1 for "));
+  EXPECT_THAT(TemporaryFolder::read(ursula_.folder() / "results/summary.json"), HasSubstr("\"cause\": null"));
+  EXPECT_EQ(judge("while read l; do sleep 0.1; echo 1,2,3; done", " --time-limit 0.3").exit_code, 3);
 }
 
 TEST_F(MechanismColumns, ofMotionAndEffortsAreNamedByOneMap) {

@@ -92,6 +92,20 @@ TEST_F(SolverRun, aSimulatorIsJudged) {
   ursula_.ending(2, "validate quick.toml --simulator cat --solver cat");
 }
 
+/// A slow simulator's judgement is unfinished, and is written; a wrong answer within the time is refused.
+TEST_F(SolverRun, aSlowSimulatorIsInconclusive) {
+  const UrsulaRun run = ursula_(
+      "validate quick.toml --out out --time-limit 0.3 --simulator 'while read line; do sleep 0.1; echo 0,0,0,0,0,0; "
+      "done'");
+  EXPECT_EQ(run.exit_code, 3) << run.out << run.err;
+  const auto summary = nlohmann::json::parse(TemporaryFolder::read(folder() / "out/summary.json"));
+  EXPECT_EQ(summary.at("verdict"), "inconclusive");
+  for (const char* file : {"timeseries.csv", "report.html", "junit.xml"})
+    EXPECT_TRUE(std::filesystem::exists(folder() / "out" / file)) << file;
+  EXPECT_EQ(ursula_("validate quick.toml --out none --time-limit 60 --simulator 'read line; echo 1,2,3'").exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder() / "none"));
+}
+
 TEST_F(SolverRun, aMotionIsJudged) {
   ursula_.passing("inverse quick.toml --samples 301 --out right.csv");
   const UrsulaRun right = ursula_("validate quick.toml --trajectory right.csv --out out --rtol 1e-4");

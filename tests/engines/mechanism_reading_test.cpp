@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "parts/engines/mujoco/mujoco_reading.h"
 #include "parts/engines/voting_engines.h"
@@ -81,6 +83,31 @@ TEST_F(MujocosReader, findsEachWrongNumber) {
     EXPECT_GT(found.value, found.limit) << where;
     EXPECT_EQ(found.where, where);
   }
+}
+
+/// MuJoCo passes over what others say of a rotor in a URDF, and never sees the file that changes a joint's type.
+TEST_F(MujocosReader, isNotHeldToWhatItDoesNotRead) {
+  MechanismParameters machine = exchange::readModel(fileOf("fourbar.urdf"));
+  MechanismJoint& joint = *std::find_if(machine.joints.begin(), machine.joints.end(), [&](const MechanismJoint& each) {
+    const bool is_motor = std::count(machine.motors.begin(), machine.motors.end(), each.name) > 0;
+    return each.kind == JointKind::revolute && !each.closure && !is_motor;
+  });
+  joint.rotor_inertia = 0.1;
+  ReadingChoices choices;
+  const ReadingDifference held = readByMujoco(fileOf("fourbar.urdf"), machine, choices);
+  EXPECT_GT(held.value, held.limit);
+  EXPECT_EQ(held.where, "armature of " + joint.name);
+  choices.is_urdf = true;
+  const ReadingDifference left = readByMujoco(fileOf("fourbar.urdf"), machine, choices);
+  EXPECT_LT(left.value, left.limit) << left.where;
+  EXPECT_EQ(left.left_out, std::vector<std::string>{"armature of " + joint.name});
+  joint.kind = JointKind::ball;
+  const ReadingDifference wrong = readByMujoco(fileOf("fourbar.urdf"), machine, choices);
+  EXPECT_EQ(wrong.where, "type of " + joint.name);
+  choices.retyped = {joint.name};
+  const ReadingDifference retyped = readByMujoco(fileOf("fourbar.urdf"), machine, choices);
+  EXPECT_LT(retyped.value, retyped.limit) << retyped.where;
+  EXPECT_EQ(retyped.left_out, std::vector<std::string>{"type of " + joint.name});
 }
 
 TEST_F(MujocosReader, saysWhyItRefusesAFile) {

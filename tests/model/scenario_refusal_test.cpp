@@ -28,12 +28,15 @@ TEST_P(RefusedScenario, saysWhereWhatAndWhatWasExpected) {
 
 TEST(RefusedScenario, isAcceptedWithoutTheChange) { EXPECT_NO_THROW(parseScenario(good_scenario, "a.toml")); }
 
+const std::string long_name = "@\"" + std::string(256, 'a') + "\"";
 const Refusal name_refusals[] = {
     {"missing", "name = \"small\"", "@", "missing key 'name', expected a string"},
     {"number", "name = \"small\"", "name = @3", "name: an integer, expected a string"},
     {"empty", "\"small\"", "@\"\"", "name: '', expected a name that a folder can have, without '/'"},
     {"dot", "\"small\"", "@\".\"", "name: '.', expected a name that a folder can have, without '/'"},
     {"dots", "\"small\"", "@\"..\"", "name: '..', expected a name that a folder can have, without '/'"},
+    {"long", "\"small\"", long_name.c_str(),
+     "name: 256 bytes, expected a name that a folder can have, of at most 255"},
     {"slash", "\"small\"", "@\"a/b\"", "name: 'a/b', expected a name that a folder can have, without '/'"},
 };
 INSTANTIATE_TEST_SUITE_P(Name, RefusedScenario, testing::ValuesIn(name_refusals), nameOf);
@@ -149,6 +152,10 @@ const Refusal settings_refusals[] = {
      "acceptance.torque.pontwise: 'torque.pontwise' is not a check, did you mean 'torque.pointwise'?"},
     {"tolerance_misspelt", "[trajectory]", "[acceptance]\ntorqe.relative = @2\n[trajectory]",
      "acceptance.torqe.relative: 'torqe.relative' is not a check, did you mean 'torque.relative'?"},
+    {"tolerance_number", "[trajectory]", "[acceptance]\ntorque = @1e-3\n[trajectory]",
+     "acceptance.torque: a float, expected a table { relative = X, absolute = Y }"},
+    {"tolerance_number_elsewhere", "[trajectory]", "[acceptance]\ntorqe = @1e-3\n[trajectory]",
+     "acceptance.torqe: 'torqe' is not a check"},
     {"tolerance_no_share", "[trajectory]", "[acceptance]\ntorque.relative = @\"1 of 9\"\n[trajectory]",
      "acceptance.torque.relative: '1 of 9', expected a number or a percentage, such as 0.01 or \"1%\""},
 };

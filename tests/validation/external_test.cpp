@@ -87,6 +87,19 @@ TEST(External, tooFewSamplesLeaveTheReplayOpen) {
   }
 }
 
+/// A hole in a file of many rows is what is wanting, and not rows; where all gaps are alike, none is the widest.
+TEST(External, aHoleIsNamedByItsEnds) {
+  TorqueTable torques = exactTorques(helix(), 301);
+  torques.t.erase(torques.t.begin() + 101, torques.t.begin() + 200);
+  torques.torques.erase(torques.torques.begin() + 101, torques.torques.begin() + 200);
+  const ValidationResult result = validateExternal(helix(), torques.file());
+  EXPECT_EQ(result.verdict, Verdict::inconclusive);
+  EXPECT_THAT(findCheck(result.checks, "replay.position")->why,
+              HasSubstr("no sample between t = 1 and 2 s, the widest gap"));
+  EXPECT_THAT(findCheck(validateExternal(helix(), exactTorques(helix(), 8).file()).checks, "replay.position")->why,
+              HasSubstr("too few samples or digits"));
+}
+
 TEST(External, theRowsThatAreSaidToDoAreJudgedAndMuchFewerAreNot) {
   for (const int count : {5, 8}) {
     const ValidationResult sparse = validateExternal(helix(), exactTorques(helix(), count).file());

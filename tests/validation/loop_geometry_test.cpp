@@ -2,6 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/errors.h"
+#include "model/mechanism_numbers.h"
 #include "tests/validation/loop_machine.h"
 
 namespace ursula {
@@ -103,6 +110,38 @@ TEST(LoopGeometry, nothingElseIsNamed) {
     tau(0) += 0.01 * std::sin(7 * t) * std::exp(t);
   });
   EXPECT_FALSE(wave.cause) << wave.cause_words.cause;
+}
+
+/// A number that a cause names makes the wrong efforts where the scenario has it.
+TEST(LoopGeometry, numbersOfCausesAreThoseOfTheScenario) {
+  const Machine machine("fourbar", [](MechanismParameters& of) {
+    for (MechanismJoint& joint : of.joints)
+      if (joint.kind == JointKind::revolute && !joint.closure)
+        joint.damping = 0.2, joint.friction = 0.3, joint.stiffness = 2, joint.spring_reference = 0.4,
+        joint.rotor_inertia = 0.05;
+  });
+  const MechanismParameters right = machine.parameters();
+  const std::string body = "body." + right.bodies.back().name + ".";
+  std::set<std::string> kinds;
+  for (const std::string& name : mechanismNumbers(right)) {
+    if (name.rfind("body.", 0) == 0 && name.rfind(body, 0) != 0) continue;
+    MechanismParameters wrong = right, pasted = right;
+    const double is = mechanismNumber(right, name);
+    setMechanismNumber(name, is + 0.01 * std::max(std::abs(is), 1e-2), wrong);
+    const std::vector<MotorEfforts> efforts = machine.efforts(wrong);
+    const ValidationResult result = machine.judge(efforts);
+    if (!result.cause || result.cause->kind != CauseKind::parameter || !result.cause->found) continue;
+    const std::string& key = result.cause->parameter;
+    ASSERT_NO_THROW(setMechanismNumber(key, *result.cause->found, pasted)) << name << ": " << key;
+    EXPECT_NEAR(mechanismNumber(right, key), *result.cause->expected, 1e-9) << key;
+    const std::vector<MotorEfforts> found = machine.efforts(pasted);
+    for (std::size_t i = 0; i < efforts.size(); ++i) EXPECT_LT((found[i] - efforts[i]).norm(), 1e-7) << key;
+    kinds.insert(key.substr(key.rfind('.') + 1));
+  }
+  for (const char* kind : {"mass", "damping", "friction", "armature", "stiffness", "springref"})
+    EXPECT_EQ(kinds.count(kind), 1U) << kind;
+  EXPECT_EQ(mechanismNumbers(right).front(), "gravity.0");
+  EXPECT_THROW(mechanismNumber(right, "mechanism.gravity.0"), InvalidParameter);
 }
 
 }  // namespace

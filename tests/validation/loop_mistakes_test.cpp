@@ -162,7 +162,7 @@ TEST(LoopMistake, constantEffortsOfFewDigitsHaveNoCause) {
   tilted.gravity.y() -= 5;
   const ValidationResult known = judgePrinted(machine, machine.efforts(tilted), 0.001);
   ASSERT_TRUE(known.cause) << known.cause_words.cause;
-  EXPECT_EQ(known.cause->parameter, "mechanism.gravity.1");
+  EXPECT_EQ(known.cause->parameter, "gravity.1");
   EXPECT_NEAR(known.cause->found.value_or(0), -5, 0.01);
 }
 
@@ -230,11 +230,10 @@ TEST(LoopMistake, termsOfJointsTellTheirNumbers) {
     MechanismJoint& its = p.joints[motor];
     its.damping = 0.2, its.friction = 0.3, its.stiffness = 2, its.spring_reference = 0.4;
   });
-  const std::pair<const char*, double MechanismJoint::*> numbers[] = {
-      {"damping", &MechanismJoint::damping},
-      {"friction", &MechanismJoint::friction},
-      {"stiffness", &MechanismJoint::stiffness},
-      {"spring_reference", &MechanismJoint::spring_reference}};
+  const std::pair<const char*, double MechanismJoint::*> numbers[] = {{"damping", &MechanismJoint::damping},
+                                                                      {"friction", &MechanismJoint::friction},
+                                                                      {"stiffness", &MechanismJoint::stiffness},
+                                                                      {"springref", &MechanismJoint::spring_reference}};
   for (const auto& each : numbers) {
     const char* name = each.first;
     const auto member = each.second;

@@ -98,8 +98,30 @@ TEST_P(Simulators, termsOfVelocitiesEffortsInAnotherOrderAndUnusedOnesFail) {
     return right(state, efforts);
   });
   EXPECT_EQ(still.verdict, Verdict::fail);
-  const Vector6d never = Vector6d::Zero();
-  EXPECT_EQ(judged([never](const Motion<double>&, const Vector6d&) { return never; }).verdict, Verdict::fail);
+}
+
+TEST_P(Simulators, accelerationsThatDoNotFollowTheEffortsHaveNoOtherCause) {
+  const Accelerations right = nocOf(scenario_);
+  const Vector6d never = Vector6d::Zero(), constant = Vector6d::LinSpaced(1, 6);
+  const auto causeOf = [&](const Accelerations& one) {
+    const ValidationResult result = judged(one);
+    EXPECT_EQ(result.verdict, Verdict::fail);
+    EXPECT_TRUE(!result.cause && result.causes.empty() && result.causes_together.empty()) << result.cause_words.cause;
+    EXPECT_LE(asked_, 2000);
+    asked_ = 0;
+    return result.cause_words.cause;
+  };
+  EXPECT_EQ(causeOf([&](const auto&, const auto&) { return never; }).find("the same answer whatever is asked: 0 for "),
+            0U);
+  EXPECT_THAT(causeOf([&](const auto&, const auto&) { return constant; }), testing::HasSubstr("6 for a_z"));
+  EXPECT_THAT(causeOf([&](const auto& state, const auto&) { return right(state, never); }),
+              testing::ContainsRegex("^the same accelerations whatever the (efforts|torques|forces) are: alpha_x"));
+  EXPECT_EQ(causeOf([&](const auto& state, const auto& efforts) {
+              Vector6d out = right(state, efforts);
+              out(5) = 0.5;
+              return out;
+            }),
+            "the same answer whatever is asked: 0.5 for a_z");
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, Simulators, testing::Values("paper-helix", "random-2", "kind-ups-1"),
@@ -144,14 +166,16 @@ TEST(NeededEfforts, areFoundForWhateverIsAffine) {
   mobility << 0, 2, 0.1, 0, 0.1, -1, 3, 0, 0;
   const Eigen::VectorXd bias = Eigen::VectorXd::LinSpaced(3, 5, 7);
   long asked = 0;
+  Unmoved unmoved({"x", "y", "z"});
   const AccelerationsIn simulator = [&](const auto& states, const auto& efforts) {
     asked += static_cast<long>(states.size());
     return std::vector<Eigen::VectorXd>{mobility * efforts.front() + bias};
   };
-  const Eigen::VectorXd found = neededEfforts({state}, simulator, 100).front();
+  const Eigen::VectorXd found = neededEfforts({state}, simulator, 100, unmoved).front();
   EXPECT_LT((mobility * found + bias - state.wanted).norm(), 1e-10);
   EXPECT_LE(asked, 8);
-  EXPECT_GT((neededEfforts({state}, simulator, 1).front() - found).norm(), 1e-3) << "one question is too few";
+  EXPECT_GT((neededEfforts({state}, simulator, 1, unmoved).front() - found).norm(), 1e-3) << "one question is too few";
+  EXPECT_EQ(unmoved.words(), "");
 }
 
 }  // namespace

@@ -66,6 +66,10 @@ INSTANTIATE_TEST_SUITE_P(
         Foreign{"blanks", with(plain_header + plain_rows, ',', ' '), "blanks between"},
         Foreign{"numpy", "# solver 3\n# " + with(plain_header + plain_rows, ',', ' '),
                 "blanks between, lines after # passed over, the header in line 2"},
+        Foreign{"matlab", "% solver 3\n% " + with(plain_header + plain_rows, ',', ' '),
+                "blanks between, lines after % passed over, the header in line 2"},
+        Foreign{"both_signs", "% solver 3\n# " + with(plain_header + plain_rows, ',', ' '),
+                "blanks between, lines after # or % passed over, the header in line 2"},
         Foreign{"numpy_commas_in_the_header", "# " + plain_header + with(plain_rows, ',', ' '),
                 "blanks between, lines after # passed over"},
         Foreign{"pandas_index",
@@ -98,6 +102,36 @@ TEST(TorqueColumns, takesUnitsThatANameTells) {
       "t,tau1_kNm,tau2_kNm,tau3_kNm,tau4_kNm,tau5 [mNm],tau6 [N mm]\n0,1.25,2,3,4,5,6\n1,1,2,3,4,5,6.5\n", "a.csv");
   EXPECT_EQ(file.torques[0], (Vector6d() << 1250, 2000, 3000, 4000, 0.005, 0.006).finished());
   EXPECT_EQ(file.torque_precision[0](0), 5) << "half a unit of the last digit, in N m";
+}
+
+/// A header of "Motor 1 torque (kNm)" and the like; `{}` is the motor.
+std::string headerOf(const std::string& form) {
+  std::string out = "t_s";
+  for (int k = 1; k <= 6; ++k) out += "," + std::string(form).replace(form.find("{}"), 2, std::to_string(k));
+  return out + "\n";
+}
+
+TEST(TorqueColumns, takesTheMotorsNumberBeforeOrAfterTheWord) {
+  const std::pair<const char*, double> forms[] = {{"Motor {} torque (kNm)", 1e3},   {"Motor {} torque", 1},
+                                                  {"motor_{}_torque_Nm", 1},        {"Leg {} effort [N.m]", 1},
+                                                  {"joint {} torque (N mm)", 1e-3}, {"Motor torque {} (kNm)", 1e3},
+                                                  {"actuator_{}_tau (mNm)", 1e-3}};
+  for (const auto& [form, unit] : forms)
+    EXPECT_NEAR(parseTorqueFile(headerOf(form) + plain_rows, "a.csv").torques[0](1), 2.25 * unit, 1e-12) << form;
+  EXPECT_THAT(refusal<CsvError>([&] { parseTorqueFile(headerOf("Motor {} force (kN)") + plain_rows, "a.csv"); }),
+              HasSubstr("motor 1 turns and has a torque"));
+  EXPECT_THROW(parseTorqueFile(headerOf("Motor {} speed") + plain_rows, "a.csv"), CsvError);
+}
+
+TEST(TorqueColumns, offersTheUnitOfTheColumn) {
+  const auto said = [](const std::string& form) {
+    return refusal<CsvError>([&] { parseTorqueFile(headerOf(form) + plain_rows, "a.csv"); });
+  };
+  EXPECT_THAT(said("A{} (kN m)"), HasSubstr("--map 'tau_1_kNm=A1 (kN m)'"));
+  EXPECT_THAT(said("A{}_mNm"), HasSubstr("--map tau_1_mNm=A1_mNm"));
+  EXPECT_THAT(said("A{}"), HasSubstr("--map tau_1_Nm=A1"));
+  EXPECT_THAT(said("A{} (kN)"), HasSubstr("--map tau_1_Nm=COLUMN")) << "a force is none of a motor that turns";
+  EXPECT_THAT(said("A{} (kg)"), HasSubstr("--map tau_1_Nm=COLUMN")) << "an unknown unit";
 }
 
 TEST(TorqueColumns, withoutAHeaderOnlyEqualStepsFromZeroAreTheTime) {

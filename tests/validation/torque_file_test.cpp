@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <string>
 
 #include "base/csv.h"
 #include "tests/model/refusals.h"
@@ -117,6 +119,24 @@ TEST(TorqueFile, instantsOfAGridAreExactAndThoseOfARoundedOneAreNot) {
 TEST(TorqueFile, knowsSinglePrecision) {
   EXPECT_TRUE(parsed("0,0.5,24593.5,3,0.10000000149011612,1,1\n").all_single);
   EXPECT_FALSE(parsed("0,0.5,24593.5,3,0.10000000000000001,1,1\n").all_single);
+}
+
+/// Printed with nine digits, or with as few as tell a float from its neighbours; numbers of few digits tell nothing.
+TEST(TorqueFile, knowsSinglePrecisionAsPrinted) {
+  const auto isSingle = [](const std::function<std::string(double)>& text) {
+    std::string rows;
+    for (int k = 0; k < 30; ++k) {
+      rows += fmt::format("{}", k);
+      for (int i = 0; i < 6; ++i) rows += "," + text(1e3 * std::sin(1 + k + 0.1 * i));
+      rows += "\n";
+    }
+    return parsed(rows).all_single;
+  };
+  EXPECT_TRUE(isSingle([](double tau) { return fmt::format("{:.9g}", static_cast<float>(tau)); }));
+  EXPECT_TRUE(isSingle([](double tau) { return fmt::format("{}", static_cast<float>(tau)); }));
+  EXPECT_FALSE(isSingle([](double tau) { return fmt::format("{:.9g}", tau); }));
+  EXPECT_FALSE(isSingle([](double tau) { return fmt::format("{}", tau); }));
+  EXPECT_FALSE(isSingle([](double tau) { return fmt::format("{:.6g}", static_cast<float>(tau)); }));
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "model/instants.h"
 #include "validation/evidence/reference.h"
@@ -117,6 +119,18 @@ class SplineLimit {
   const std::vector<Conditions>& conditions() const { return conditions_; }  ///< at the grid
   double length() const { return conditions_.front().conditioning.length; }
   double largestInterpolation() const { return *std::max_element(interpolation_.begin(), interpolation_.end()); }
+  /// The widest interval between rows, if it is much wider than most and leaves the largest error; else nullopt.
+  std::optional<std::pair<double, double>> limitingGap() const {
+    const auto worst = std::max_element(interpolation_.begin(), interpolation_.end()) - interpolation_.begin();
+    if (!(worst + 1 < static_cast<std::ptrdiff_t>(t_.size())) || !(largestInterpolation() > largestOfDigits()))
+      return std::nullopt;
+    std::vector<double> gaps;
+    for (std::size_t k = 1; k < t_.size(); ++k) gaps.push_back(t_[k] - t_[k - 1]);
+    const double gap = gaps[static_cast<std::size_t>(worst)];
+    std::nth_element(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2), gaps.end());
+    if (gap < *std::max_element(gaps.begin(), gaps.end()) || gap < 2 * gaps[gaps.size() / 2]) return std::nullopt;
+    return std::pair(t_[static_cast<std::size_t>(worst)], t_[static_cast<std::size_t>(worst) + 1]);
+  }
   double largestOfDigits() const { return *std::max_element(digits_.begin(), digits_.end()); }
   std::size_t rows() const { return t_.size(); }
 
@@ -240,11 +254,15 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   const std::string basis = splineBasis(*limit, torques.file.rows(), units);
   if (const GrowthWindow* window = hopeless(plan, windows, useful)) {
     const double bound = plannedBound(plan, *window);
+    const auto gap = limit->limitingGap();
+    const std::string lack = gap ? fmt::format("no sample between t = {:.6g} and {:.6g} s, the widest gap,",
+                                               gap->first * units.time, gap->second * units.time)
+                                 : "too few samples or digits";
     out.enough_rows = enoughRows(scenario, *limit, amplification, useful, deadline);
     out.not_replayed = fmt::format(
-        "too few samples or digits for a replay{}. From t = {:.6g} s what the file leaves open may move P by {:.3g} m "
-        "within {:.3g} s, and a verdict needs {:.3g} m",
-        remedyOf(out.enough_rows), window->start() * units.time, bound * units.length,
+        "{} for a replay{}. From t = {:.6g} s what the file leaves open may move P by {:.3g} m within {:.3g} s, and a "
+        "verdict needs {:.3g} m",
+        lack, remedyOf(out.enough_rows), window->start() * units.time, bound * units.length,
         (window->end() - window->start()) * units.time, useful * units.length);
     out.bound = bound;
     out.between = limit->largestInterpolation();

@@ -138,6 +138,7 @@ ValidationResult emptyResult(const Scenario& scenario, const JudgedSubject& subj
   ValidationResult result;
   result.asked = std::make_shared<const Scenario>(scenario);
   result.effort = effortNoun(scenario.manipulator->motors());
+  result.timeseries = validationSeries(*scenario.manipulator, {}, {});
   addProvenance(scenario, subject, result);
   return result;
 }

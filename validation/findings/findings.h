@@ -36,7 +36,8 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
 /// once for each program.
 std::vector<std::pair<std::string, std::string>> partProvenance();
 
-/// A result without checks. Its provenance has scenario, subject, build, settings and what the user asked for.
+/// A result without checks, and without rows in its series. Its provenance has scenario, subject, build, settings and
+/// what the user asked for.
 ValidationResult emptyResult(const Scenario& scenario, const JudgedSubject& subject);
 ValidationResult emptyResult(const MechanismScenario& scenario, const JudgedSubject& subject);
 

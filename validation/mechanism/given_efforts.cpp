@@ -45,6 +45,7 @@ GivenEfforts effortsIn(const std::string& text, const std::filesystem::path& fil
   GivenEfforts out;
   out.name = file.filename().string();
   out.read_as = read.read_as;
+  out.all_single = read.all_single;
   out.ignored = table.ignored;
   out.t = table.columns.front();
   const std::size_t n = mechanism.motorCount();

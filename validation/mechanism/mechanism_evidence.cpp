@@ -7,6 +7,7 @@
 #include "model/instants.h"
 #include "simbody/simbody_mechanism.h"
 #include "validation/subject/asked_instants.h"
+#include "validation/subject/single_precision.h"
 
 namespace ursula {
 namespace {
@@ -237,6 +238,11 @@ MechanismEvidence gatherMechanism(const MechanismScenario& scenario, const LoopM
   } catch (const OutOfTime& over) {
     out.out_of_time = over.what();
   }
+  if (subject.no_cause) out.no_cause = subject.no_cause();
+  SinglePrecision single;
+  for (const MechanismSample& sample : out.samples)
+    for (const double effort : sample.subject) single.add(effort);
+  out.all_single = single.all() || (subject.given && subject.given->all_single);
   if (out.samples.empty()) {
     out.largest = 0;  // of a part of the motion
     return out;

@@ -47,6 +47,7 @@ struct GivenEfforts {
   std::string read_as;
   std::vector<std::string> ignored;
   std::string derived_from;  ///< where the precision comes from, if not from printed digits
+  bool all_single = false;   ///< every effort is a single-precision number, as printed
 };
 
 /// Whose efforts are judged. Without `answers` and `given` it is this program's NOC.
@@ -56,6 +57,8 @@ struct MechanismSubject {
   /// The same between the samples; empty if it is the same.
   std::function<std::vector<MotorEfforts>(const std::vector<MechanismQuestion>&)> answers_between;
   bool gives_accelerations = false;  ///< the answers come from accelerations, whose rounding they have
+  /// What the answers say by themselves, so that no cause is sought; empty if nothing. Asked after all else.
+  std::function<std::string()> no_cause;
   std::shared_ptr<const GivenEfforts> given;
 
   /// Instants between the samples, and the most samples of a solver that is not asked thoroughly.
@@ -154,8 +157,9 @@ struct MechanismEvidence {
   double acceleration_level = 0;  ///< that of Simbody's accelerations under efforts, measured
   double largest = 0;             ///< effort along the motion, in the shown unit
   std::string unit;               ///< "N m", or "N" if all motors slide
-  std::string not_replayed, out_of_time;
+  std::string not_replayed, out_of_time, no_cause;
   std::string replay_diverged;       ///< why no window could be judged
+  bool all_single = false;           ///< as GivenEfforts::all_single, also of answers
   bool gives_accelerations = false;  ///< as in MechanismSubject
   /// A solver, to be asked for terms apart; empty if the subject is none.
   std::function<std::vector<MotorEfforts>(const std::vector<MechanismQuestion>&)> ask;

@@ -1,5 +1,7 @@
 #include "validation/outside/needed_efforts.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <limits>
 
@@ -10,7 +12,7 @@ namespace {
 
 /// The search for one state's efforts.
 struct Search {
-  Eigen::VectorXd efforts, residual, step;
+  Eigen::VectorXd efforts, residual, step, first_answer;
   Eigen::MatrixXd mobility;  ///< accelerations per effort
   double best = std::numeric_limits<double>::infinity();
   Eigen::VectorXd found;  ///< the efforts after the best answer, and its step
@@ -35,8 +37,39 @@ struct Search {
 
 }  // namespace
 
+void Unmoved::addFirst(const Eigen::VectorXd& answer) {
+  if (entries_.empty())
+    for (const double each : answer) entries_.push_back({each});
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    entries_[i].is_same = entries_[i].is_same && answer(static_cast<Eigen::Index>(i)) == entries_[i].first;
+}
+
+void Unmoved::add(const Eigen::VectorXd& first, const Eigen::VectorXd& answer, const Eigen::VectorXd& right,
+                  const Eigen::VectorXd& least) {
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    entries_[i].moves = entries_[i].moves || answer(k) != first(k);
+    entries_[i].should_move = entries_[i].should_move || std::abs(right(k)) > least(k);
+  }
+}
+
+std::string Unmoved::words() const {
+  std::string values, names;
+  bool is_same = true;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& each = entries_[i];
+    if (each.moves || !each.should_move) continue;
+    is_same = is_same && each.is_same;
+    names += (names.empty() ? "" : ", ") + names_[i];
+    values += fmt::format("{}{:.6g} for {}", values.empty() ? "" : ", ", each.first, names_[i]);
+  }
+  if (names.empty()) return "";
+  return is_same ? "the same answer whatever is asked: " + values
+                 : "the same accelerations whatever the efforts are: " + names;
+}
+
 std::vector<Eigen::VectorXd> neededEfforts(const std::vector<WantedState>& states, const AccelerationsIn& simulator,
-                                           long questions) {
+                                           long questions, Unmoved& unmoved) {
   std::vector<Search> searches(states.size());
   std::vector<std::size_t> open;
   for (std::size_t k = 0; k < states.size(); ++k) {
@@ -54,7 +87,15 @@ std::vector<Eigen::VectorXd> neededEfforts(const std::vector<WantedState>& state
     std::vector<std::size_t> left;
     for (std::size_t i = 0; i < open.size(); ++i) {
       Search& search = searches[open[i]];
-      search.take(states[open[i]], answers[i]);
+      const WantedState& state = states[open[i]];
+      if (round == 0) {
+        search.first_answer = answers[i];
+        unmoved.addFirst(answers[i]);
+      } else {
+        unmoved.add(search.first_answer, answers[i], inverseOf(state.inertia) * (efforts[i] - state.efforts),
+                    state.rounding * state.scale.cwiseInverse());
+      }
+      search.take(state, answers[i]);
       if (!search.ended) left.push_back(open[i]);
     }
     open = left;

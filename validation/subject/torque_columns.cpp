@@ -9,8 +9,10 @@
 #include <optional>
 
 #include "base/text.h"
+#include "model/effort_units.h"
 #include "model/motor_table.h"
 #include "model/torque_names.h"
+#include "validation/subject/single_precision.h"
 
 namespace ursula {
 namespace {
@@ -141,7 +143,8 @@ class Finder {
     std::string out;
     std::vector<std::string> unguessed;
     std::size_t next = 0;
-    for (const std::string& name : targets_) {
+    for (int k = -1; k < motors_.count(); ++k) {
+      const std::string& name = targets_[static_cast<std::size_t>(k + 1)];
       if (found_.count(name) > 0) continue;
       const std::string number = name == "t_s" ? "" : name.substr(4, name.rfind('_') - 4);
       const auto column = dialect_.header == 0 || (name == "t_s" && dialect_.header_cells.size() == wanted())
@@ -151,10 +154,11 @@ class Finder {
                                   const auto end = std::min(cell.find_first_not_of("0123456789", digit), cell.size());
                                   return digit != std::string::npos && cell.substr(digit, end - digit) == number;
                                 });
-      if (column == free.end())
+      const std::string unit = column == free.end() ? "" : unitOfColumn(*column, motors_, k);
+      if (unit.empty())
         unguessed.push_back(name);
       else
-        out += fmt::format(" --map {}", quoted(name + "=" + *column));
+        out += fmt::format(" --map {}", quoted(name.substr(0, name.rfind('_') + 1) + unit + "=" + *column));
     }
     if (found_.count("t_s") == 0 && dialect_.header == 0 && dialect_.header_cells.size() + 1 == wanted())
       return "; is the column of the time missing?";
@@ -261,7 +265,13 @@ TorqueColumns readTorqueColumns(const std::string& text, const std::filesystem::
     return std::any_of(columns.begin(), columns.end(), [&](const TorqueColumn& one) { return one.source == name; });
   };
   TorqueColumns out{parseCsv(text, file, options), {}, readAs(options.dialect, columns)};
-  for (const TorqueColumn& column : columns) out.multipliers.push_back(column.multiplier);
+  SinglePrecision single;
+  for (const TorqueColumn& column : columns) {
+    out.multipliers.push_back(column.multiplier);
+    if (column.name == "t_s") continue;
+    for (const double effort : out.table.at(column.source)) single.add(effort);
+  }
+  out.all_single = single.all();
   arrange(columns, out.table);
   return out;
 }

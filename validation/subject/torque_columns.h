@@ -30,7 +30,8 @@ struct TorqueColumn {
 struct TorqueColumns {
   CsvTable table;                   ///< in SI but for the multipliers, so that its digits are those of the file
   std::vector<double> multipliers;  ///< of each column
-  std::string read_as;  ///< how columns were interpreted, in words; empty for a file that follows the contract
+  std::string read_as;      ///< how columns were interpreted, in words; empty for a file that follows the contract
+  bool all_single = false;  ///< whether every effort is a single-precision number, as printed
 };
 
 /// Finds the columns by the map, else by the contract's names, else by names with a certain meaning. Such names are

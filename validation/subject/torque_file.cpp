@@ -70,13 +70,11 @@ TorqueFile torquesOf(const CsvTable& table, const std::vector<double>& multiplie
   PrintedPrecision torques;
   out.torques.resize(table.rows());
   out.torque_precision.resize(table.rows());
-  out.all_single = true;
   for (std::size_t k = 0; k < table.rows(); ++k)
     for (std::size_t i = 0; i < motor_count; ++i) {
       const double value = table.columns[1 + i][k];
       out.torques[k](static_cast<Eigen::Index>(i)) = value * multipliers[1 + i];
       torques.add(value, table.last_places[1 + i][k]);
-      out.all_single = out.all_single && static_cast<double>(static_cast<float>(value)) == value;
     }
   for (std::size_t k = 0; k < table.rows(); ++k)
     for (std::size_t i = 0; i < motor_count; ++i)
@@ -103,6 +101,7 @@ TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path&
   const TorqueColumns columns = readTorqueColumns(text, file, map, motors);
   TorqueFile out = torquesOf(columns.table, columns.multipliers);
   out.read_as = columns.read_as;
+  out.all_single = columns.all_single;
   for (const auto& [name, column] : map) out.map += (out.map.empty() ? "" : " --map ") + shellWord(name + "=" + column);
   return out;
 }

@@ -31,7 +31,7 @@ struct TorqueFile {
   std::string map;          ///< columns that the caller named, as options follow --map: "t_s=Clock --map tau_1_N=F1"
   std::string read_as;      ///< how columns were interpreted; empty for a file that follows the contract
   int digits = 0;           ///< largest number of significant digits of a torque
-  bool all_single = false;  ///< every torque is a single-precision number
+  bool all_single = false;  ///< every torque is a single-precision number, as printed
   /// Where the precision comes from, in words, if not from printed digits; such torques are compared at their instants
   /// and not replayed.
   std::string derived_from;

@@ -135,13 +135,22 @@ class ComparedReading {
     ++out_.joints;
     const int type = model_->jnt_type[joint], dof = model_->jnt_dofadr[joint], at = model_->jnt_qposadr[joint];
     const auto expected = types.find(own.kind);
-    numbers(type, expected == types.end() ? -1 : expected->second, "type of " + own.name);
+    const auto& retyped = choices_.retyped;
+    const bool is_retyped = std::find(retyped.begin(), retyped.end(), own.name) != retyped.end();
+    if (is_retyped)
+      out_.left_out.push_back("type of " + own.name);
+    else
+      numbers(type, expected == types.end() ? -1 : expected->second, "type of " + own.name);
     if (type == mjJNT_FREE) return;
     const Eigen::Isometry3d to_body = ours_.bodies[own.child].frame.inverse();
     difference(vector(model_->jnt_pos, joint), to_body * own.centre_of_child, mechanism_.length(),
                "anchor of " + own.name);
+    if (is_retyped) return;
     numbers(model_->dof_damping[dof], own.damping, "damping of " + own.name);
-    numbers(model_->dof_armature[dof], own.rotor_inertia, "armature of " + own.name);
+    if (choices_.is_urdf && own.rotor_inertia != 0)
+      out_.left_out.push_back("armature of " + own.name);
+    else
+      numbers(model_->dof_armature[dof], own.rotor_inertia, "armature of " + own.name);
     numbers(model_->dof_frictionloss[dof], own.friction, "frictionloss of " + own.name);
     numbers(model_->jnt_stiffness[joint], own.stiffness, "stiffness of " + own.name);
     if (type == mjJNT_BALL) return;
