@@ -21,6 +21,19 @@ using loops::PassiveRates;
 namespace {
 
 constexpr double digits_of_files = 1e-6;  ///< what files close to their digits is open by less
+constexpr double nearly_closed = 1e-8;
+constexpr double nearby[] = {0.2, -0.2, 0.5, -0.5, 1, -1};  ///< where to look for other poses, rad or scaled
+
+/// Moves all coordinates by up to `most`, each another way.
+void scatter(const loops::LoopTree& tree, const VectorXd& scale, double most, LoopPose& pose) {
+  constexpr double golden = 0.61803398874989485;
+  VectorXd by(tree.rate_count);
+  for (Eigen::Index k = 0; k < by.size(); ++k) {
+    const double fraction = golden * static_cast<double>(k + 1);
+    by(k) = scale(k) * most * (2 * (fraction - std::floor(fraction)) - 1);
+  }
+  loops::advance(tree, by, pose);
+}
 
 double angleFrom(const Vector3d& from, const Vector3d& to, const Vector3d& axis) {
   return std::atan2(axis.dot(from.cross(to)), from.dot(to) - axis.dot(from) * axis.dot(to));
@@ -101,6 +114,19 @@ double LoopSolver::Impl::approach(LoopPose& pose) const {
   return error;
 }
 
+/// The same; where it gets stuck at a pose that is not singular, it begins again beside the first.
+void LoopSolver::Impl::approachFromNearby(LoopPose& pose) const {
+  const LoopPose first = pose;
+  if (approach(pose) < nearly_closed || singularLoop(pose)) return;
+  for (const double most : nearby) {
+    LoopPose other = first;
+    scatter(tree, scale, most, other);
+    if (!(approach(other) < nearly_closed)) continue;
+    pose = std::move(other);
+    return;
+  }
+}
+
 void LoopSolver::Impl::assemble() {
   const bool is_given = !mechanism.start().empty();
   reference = zeroPose();
@@ -113,7 +139,7 @@ void LoopSolver::Impl::assemble() {
     frames.place(reference);
     open = errorOf(frames, nullptr);
   }
-  if (open > wide) static_cast<void>(approach(reference));
+  if (open > wide) approachFromNearby(reference);
   // What the file closes to its digits is closed by the passive joints; an open one by all, with least movement.
   std::vector<int> all(tree.rate_count);
   for (int k = 0; k < tree.rate_count; ++k) all[k] = k;
@@ -146,28 +172,12 @@ void LoopSolver::Impl::assemble() {
   findFreedoms(reference, ignored, spins);
 }
 
-namespace {
-
-/// Moves all coordinates by up to `most`, each another way.
-void scatter(const loops::LoopTree& tree, const VectorXd& scale, double most, LoopPose& pose) {
-  constexpr double golden = 0.61803398874989485;
-  VectorXd by(tree.rate_count);
-  for (Eigen::Index k = 0; k < by.size(); ++k) {
-    const double fraction = golden * static_cast<double>(k + 1);
-    by(k) = scale(k) * most * (2 * (fraction - std::floor(fraction)) - 1);
-  }
-  loops::advance(tree, by, pose);
-}
-
-}  // namespace
-
 std::optional<SingularLoop> LoopSolver::Impl::singularLoop(const LoopPose& pose) const {
-  constexpr double nearly_closed = 1e-8;
   Frames frames(tree);
   MatrixXd here(closures.rows(), tree.rate_count), there = here;
   frames.place(pose);
   closures.jacobian(frames, here);
-  for (const double most : {0.2, -0.2, 0.5, -0.5, 1.0, -1.0}) {
+  for (const double most : nearby) {
     LoopPose other = pose;
     scatter(tree, scale, most, other);
     if (!(approach(other) < nearly_closed)) continue;

@@ -51,6 +51,7 @@ struct LoopSolver::Impl {
   std::optional<SingularLoop> singularLoop(const loops::LoopPose& pose) const;
   /// Closes the loops by damped steps over all coordinates; returns what remains, an angle.
   double approach(loops::LoopPose& pose) const;
+  void approachFromNearby(loops::LoopPose& pose) const;
   /// Finds idle spins among the kernel's motions, and what else is free.
   void findFreedoms(const loops::LoopPose& pose, LoopFreedoms& out, std::vector<RestingSpin>& spins) const;
   /// Closes the loops by passive rates alone. Returns the length of all steps, or infinity if they do not converge.

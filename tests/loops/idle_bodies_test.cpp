@@ -88,7 +88,8 @@ TEST(IdleOutput, isComparedButForItsSpin) {
     for (MechanismJoint& joint : scenario.read.machine.joints) joint.friction = 0;  // too stiff to replay
     scenario.mechanism = std::make_shared<Mechanism>(scenario.read.machine, body);
     const ValidationResult result = validateMechanism(scenario);
-    EXPECT_EQ(result.verdict, Verdict::pass) << name;
+    for (const Check& each : result.checks)  // the file has friction
+      EXPECT_TRUE(each.verdict != Verdict::fail || each.name == "model.reading") << name << ": " << each.name;
     const Check* check = findCheck(result.checks, "replay.orientation");
     ASSERT_NE(check, nullptr);
     EXPECT_EQ(check->verdict, Verdict::pass) << name << ": " << check->why;

@@ -119,7 +119,7 @@ TEST_P(OpenPose, isFollowedByEveryEngine) {
   std::string failed;
   for (const Check& check : result.checks)
     if (check.verdict != Verdict::pass && check.verdict != Verdict::not_applicable) failed += check.name + " ";
-  EXPECT_EQ(result.verdict, Verdict::pass) << failed;
+  EXPECT_EQ(failed, "model.reading ") << "the file is not open";
   for (const char* name : {"torque.pointwise", "torque.twin", "torque.maximal", "invariance.labels"}) {
     const Check* check = findCheck(result.checks, name);
     ASSERT_NE(check, nullptr) << name;
