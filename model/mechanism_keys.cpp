@@ -27,7 +27,8 @@ ScenarioTable mechanism() {
             "a model in MJCF, SDF or URDF; a relative path is taken from the scenario's folder"},
            texts("motors", "joints that motors drive, in the order of efforts; by default those that the file drives"),
            {"output", KeyType::string, "", no_default,
-            "the body whose motion is reported; by default the one farthest from the base, counted in joints, that does not spin alone"},
+            "the body whose motion is reported; by default the one farthest from the base, counted in joints, that "
+            "does not spin alone"},
            texts("close", "`\"A:B\"`: a ball joins the frame origins of these two links"),
            {"base", KeyType::string, "", no_default, "a body that stands still"},
            {"key", KeyType::string, "", no_default, "a keyframe of an MJCF whose pose is the initial one"},

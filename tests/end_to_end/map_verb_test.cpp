@@ -64,7 +64,7 @@ TEST(Map, saysWhatIsOutOfReachAndDrawsItGrey) {
   ursula.passing("map " + helix + " --x=-9,9,7 --y=-9,9,7 --picture map.svg --out map.csv --jobs 7");
   const std::string picture = ursula.read("map.svg");
   for (const char* part :
-       {"<svg", "<path style=\"fill:#bbb\"", "x in m", "y in m", "κ(B)", "largest static effort, N·m"})
+       {"<svg", "<path style=\"fill:#bbb\"", "x in m", "y in m", "κ(B)", "largest static effort, kN·m"})
     EXPECT_THAT(picture, HasSubstr(part));
   EXPECT_EQ(parseCsv(ursula.read("map.csv"), "map.csv", {{}, false, {}}).at("reach"), table.at("reach"));
 }

@@ -35,8 +35,7 @@ const Refusal name_refusals[] = {
     {"empty", "\"small\"", "@\"\"", "name: '', expected a name that a folder can have, without '/'"},
     {"dot", "\"small\"", "@\".\"", "name: '.', expected a name that a folder can have, without '/'"},
     {"dots", "\"small\"", "@\"..\"", "name: '..', expected a name that a folder can have, without '/'"},
-    {"long", "\"small\"", long_name.c_str(),
-     "name: 256 bytes, expected a name that a folder can have, of at most 255"},
+    {"long", "\"small\"", long_name.c_str(), "name: 256 bytes, expected a name that a folder can have, of at most 255"},
     {"slash", "\"small\"", "@\"a/b\"", "name: 'a/b', expected a name that a folder can have, without '/'"},
 };
 INSTANTIATE_TEST_SUITE_P(Name, RefusedScenario, testing::ValuesIn(name_refusals), nameOf);

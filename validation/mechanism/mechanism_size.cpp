@@ -115,7 +115,8 @@ bool areRightWith(const std::vector<ScenarioChange>& changes, const MechanismEvi
   MechanismSubject subject;
   subject.given = std::make_shared<const GivenEfforts>(std::move(given));
   const MechanismAlong along(other);
-  const MechanismEvidence found = gatherMechanism(along.scenario(), along.motion(), subject, makers, Deadline(), nullptr);
+  const MechanismEvidence found =
+      gatherMechanism(along.scenario(), along.motion(), subject, makers, Deadline(), nullptr);
   for (const Check& check : judgeMechanism(found, subject))
     if (isOf(check, "torque") && check.reason != Reason::not_covered && check.verdict != Verdict::pass &&
         !(check.largest.value <= allowed))
