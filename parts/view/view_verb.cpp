@@ -37,6 +37,7 @@ void addView(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--out", options->out,
                    "HTML file, - for standard output; nothing is then started. Default: results/view/NAME.html");
   verb->footer(
+      "Example: ursula view my.toml\n"
       "The page needs no network and no server. Sliders move the pose or the motors, also along the commanded path;\n"
       "legs, reach, the distance from singular poses and the efforts that hold the machine at rest follow.");
   verb->callback([options, &run] { run = [options] { return view(*options); }; });
